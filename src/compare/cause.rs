@@ -4,7 +4,7 @@ use std::fmt;
 use std::mem::discriminant;
 
 use crate::color::{ResolveSpace, linear_to_srgb, srgb_to_linear, unit_to_byte};
-use crate::raster::{Framebuffer, SamplePattern, SampleRate};
+use crate::raster::{Framebuffer, SamplePattern, SampleRate, ShadingRate};
 use crate::render::Subject;
 use crate::rules::Rules;
 use crate::texture::{LevelSampling, PixelSampling};
@@ -39,6 +39,8 @@ pub enum Cause {
     NotEncoded,
     /// The samples of a pixel were averaged in these values.
     Resolve(ResolveSpace),
+    /// So often a primitive is shaded in a pixel.
+    Shading(ShadingRate),
 }
 
 /// The corner of a sample's cell.
@@ -94,6 +96,13 @@ impl fmt::Display for Cause {
             Self::NotEncoded => f.write_str("gamma: linear light stored without the sRGB curve (too dark)"),
             Self::Resolve(ResolveSpace::Linear) => f.write_str("gamma: samples mixed in linear light"),
             Self::Resolve(ResolveSpace::Stored) => f.write_str("gamma: samples mixed in stored values"),
+            Self::Shading(ShadingRate::Sample) => f.write_str("supersampling: a colour for each sample"),
+            Self::Shading(ShadingRate::Centre) => {
+                f.write_str("multisampling: one colour for all samples of a pixel, that of its centre")
+            }
+            Self::Shading(ShadingRate::Centroid) => f.write_str(
+                "multisampling: one colour for all samples of a pixel, that of the centroid of the covered ones",
+            ),
         }
     }
 }
@@ -109,6 +118,7 @@ pub(super) fn drawn_otherwise(subject: &Subject<'_>) -> Vec<Cause> {
     let rates: Vec<SampleRate> = [1, 4, 9, 16].into_iter().filter_map(SampleRate::new).collect();
     causes.extend(others(&rates, settings.sample_rate).map(Cause::SampleRate));
     causes.extend(others(&ResolveSpace::ALL, settings.resolve).map(Cause::Resolve));
+    causes.extend(others(&ShadingRate::ALL, settings.shading).map(Cause::Shading));
     if !subject.scene.textures.is_empty() {
         causes.push(Cause::FlippedV);
         causes.extend(others(&PixelSampling::ALL, settings.pixel_sampling).map(Cause::PixelSampling));

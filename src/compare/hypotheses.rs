@@ -192,10 +192,11 @@ impl<'a> Search<'a> {
         found.any(|found| found.error as f64 <= NEGLIGIBLE * before)
     }
 
-    /// In which values a single sample is averaged makes no difference.
+    /// In which values a single sample is averaged, and how often a pixel of one is shaded, makes no difference.
     fn makes_sense(&self, causes: &[Cause]) -> bool {
         let samples = self.trial.settings(causes).sample_rate.samples();
-        samples > 1 || !causes.iter().any(|cause| matches!(cause, Cause::Resolve(_)))
+        let of_several = |cause: &Cause| matches!(cause, Cause::Resolve(_) | Cause::Shading(_));
+        samples > 1 || !causes.iter().any(of_several)
     }
 
     /// Whether another drawing will be done in time: as many times more samples take as many times longer at most.

@@ -45,6 +45,7 @@ impl<'a> Trial<'a> {
                 Cause::Rules(rules) => settings.rules = rules,
                 Cause::SampleRate(rate) => settings.sample_rate = rate,
                 Cause::Resolve(space) => settings.resolve = space,
+                Cause::Shading(shading) => settings.shading = shading,
                 Cause::PixelSampling(sampling) => settings.pixel_sampling = sampling,
                 Cause::LevelSampling(sampling) => settings.level_sampling = sampling,
                 _ => {}

@@ -17,11 +17,8 @@ fn settle() {
     std::thread::sleep(Duration::from_millis(60));
 }
 
-#[test]
-fn pointer_drags_the_picture_pixel_by_pixel() {
-    let path = flat();
-    let program = Program::start_bare(&path);
-    program.shows(&viewed(&path, &[]), "the first picture");
+/// Drags by 35, -21 pixels.
+fn drag_along(program: &Program) {
     program.desktop.point(AT[0], AT[1]);
     settle();
     program.desktop.button(1, true);
@@ -29,6 +26,14 @@ fn pointer_drags_the_picture_pixel_by_pixel() {
         program.desktop.point(AT[0] + 5 * step, AT[1] - 3 * step);
     }
     program.desktop.button(1, false);
+}
+
+#[test]
+fn pointer_drags_the_picture_pixel_by_pixel() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    drag_along(&program);
     let moved = [Command::View(ViewCommand::PanBy {
         by: DVec2::new(35.0, -21.0),
     })];
@@ -144,22 +149,13 @@ fn pointer_draws_the_line_of_a_profile_and_leaves_the_picture() {
         let (pixels, [width, _]) = program.desktop.pixels(program.window)?;
         (pixels[200 * width as usize + 5] & 0x00ff_ffff == 0x00ff_ffff).then_some(())
     });
-    let drag = || {
-        program.desktop.point(AT[0], AT[1]);
-        settle();
-        program.desktop.button(1, true);
-        for step in 1..=7 {
-            program.desktop.point(AT[0] + 5 * step, AT[1] - 3 * step);
-        }
-        program.desktop.button(1, false);
-        settle();
-    };
     // The panels are there with it, and a drag draws the line.
     std::thread::sleep(Duration::from_millis(300));
-    drag();
+    drag_along(&program);
+    settle();
     program.desktop.press(keysym::TAB, &[]);
     program.shows(&viewed(&path, &[]), "the picture has not moved");
-    drag();
+    drag_along(&program);
     let moved = [Command::View(ViewCommand::PanBy {
         by: DVec2::new(35.0, -21.0),
     })];

@@ -6,7 +6,7 @@ use std::time::Duration;
 use rasterscope::color::ResolveSpace;
 use rasterscope::compare::{Cause, CellCorner, Guess, guess};
 use rasterscope::geometry::{View, ViewTransform};
-use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::raster::{Framebuffer, SampleRate, ShadingRate};
 use rasterscope::render::{CancelToken, RenderSettings, Subject};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{DialectChoice, Scene, load};
@@ -71,6 +71,7 @@ impl Study {
                 Cause::LevelSampling(sampling) => renderer.reads.level_sampling = sampling,
                 Cause::FlippedV => renderer.flips_v = true,
                 Cause::Resolve(space) => renderer.resolve = space,
+                Cause::Shading(shading) => renderer.shades_once = shading == ShadingRate::Centre,
                 _ => {}
             }
         }
@@ -188,6 +189,7 @@ fn guess_finds_each_mistake_of_another_renderer() {
         Cause::Resolve(ResolveSpace::Linear),
         Cause::SampleRate(rate(1)),
         Cause::SampleRate(rate(16)),
+        Cause::Shading(ShadingRate::Centre),
         Cause::LevelSampling(LevelSampling::Linear),
     ];
     let all: Vec<Vec<Cause>> = MISTAKES.into_iter().chain(more).map(|cause| vec![cause]).collect();

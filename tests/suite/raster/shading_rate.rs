@@ -3,12 +3,13 @@
 use glam::DVec2;
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Question, Setting};
+use rasterscope::inspect::Setting;
 use rasterscope::raster::{Framebuffer, SamplePattern, ShadingRate};
-use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::render::RenderSettings;
 use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
+use crate::support::explaining::advised;
 use crate::support::scenes::{at_rate, drawn};
 
 const SIZE: [u32; 2] = [512, 512];
@@ -117,28 +118,11 @@ fn pixels_inside_have_the_colour_of_one_sample_in_the_middle() {
     }
 }
 
-fn explained(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
-    let size = [12, 12];
-    let view = View::Canvas.transform(scene.canvas, size);
-    let subject = Subject {
-        scene,
-        view: &view,
-        settings,
-    };
-    let question = Question {
-        subject,
-        file: "scene.svg",
-        size,
-        pixel,
-    };
-    Explanation::advised(&question).expect("inside")
-}
-
 #[test]
 fn explanations_tell_where_a_primitive_is_shaded_and_what_helps() {
     let scene = document("sliver.svg", SLIVER);
     let told = |shading, pixel| {
-        let found = explained(&scene, &with(shading), pixel);
+        let found = advised(&scene, &with(shading), [12, 12], pixel);
         let paint = found.paints.len() - 1;
         let sample = found.telling_sample(paint).expect("it paints");
         (found.fragment_lines(paint, sample).join("\n"), found)

@@ -34,6 +34,8 @@ pub(crate) struct Foreign {
     pub(crate) flips_v: bool,
     /// By the course's, edges belong to everybody, samples are truncated, texels are addressed by `w - 1`.
     pub(crate) rules: Rules,
+    /// Colours are those of the pixel's centre, wherever samples lie.
+    pub(crate) shades_once: bool,
     /// How textures are read.
     pub(crate) reads: RenderSettings,
 }
@@ -56,6 +58,7 @@ impl Foreign {
             resolve: ResolveSpace::Stored,
             flips_v: false,
             rules: Rules::Standard,
+            shades_once: false,
             reads: settings,
         }
     }
@@ -144,17 +147,18 @@ impl Foreign {
             return;
         }
         self.each(samples, &corners, |at| {
-            let mut weights = [0.0; 3];
-            for (k, (from, to)) in [(b, c), (c, a), (a, b)].into_iter().enumerate() {
+            let edges = [(b, c), (c, a), (a, b)];
+            let weights_at = |at: DVec2| edges.map(|(from, to)| (to - from).perp_dot(at - from) / area);
+            for (from, to) in edges {
                 let edge = (to - from) * area.signum();
                 let value = (to - from).perp_dot(at - from) * area.signum();
                 let owns = self.is_course() || edge.y < 0.0 || (edge.y == 0.0 && edge.x > 0.0);
                 if value < 0.0 || (value == 0.0 && !owns) {
                     return None;
                 }
-                weights[k] = value / area.abs();
             }
-            Some(color(weights, corners))
+            let shaded = if self.shades_once { at.floor() + 0.5 } else { at };
+            Some(color(weights_at(shaded), corners))
         });
     }
 

@@ -118,7 +118,9 @@ pub(super) fn drawn_otherwise(subject: &Subject<'_>) -> Vec<Cause> {
     let rates: Vec<SampleRate> = [1, 4, 9, 16].into_iter().filter_map(SampleRate::new).collect();
     causes.extend(others(&rates, settings.sample_rate).map(Cause::SampleRate));
     causes.extend(others(&ResolveSpace::ALL, settings.resolve).map(Cause::Resolve));
-    causes.extend(others(&ShadingRate::ALL, settings.shading).map(Cause::Shading));
+    // A centroid is what few ask of their hardware, and what explains other renderers' rounding by chance.
+    let rates = [ShadingRate::Sample, ShadingRate::Centre];
+    causes.extend(others(&rates, settings.shading).map(Cause::Shading));
     if !subject.scene.textures.is_empty() {
         causes.push(Cause::FlippedV);
         causes.extend(others(&PixelSampling::ALL, settings.pixel_sampling).map(Cause::PixelSampling));

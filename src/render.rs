@@ -7,6 +7,7 @@ mod regions;
 mod replay;
 mod screen;
 mod tiles;
+mod timing;
 mod visualisation;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,6 +30,7 @@ use parts::chunks;
 pub use regions::{Subject, draw_regions, refine};
 pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
 use screen::Screen;
+pub use timing::{Repeats, median, milliseconds, time_draws};
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
 
@@ -117,6 +119,15 @@ impl RenderSettings {
                 rules @ (Rules::Standard | Rules::Course) => rules,
             },
             ..self
+        }
+    }
+
+    /// The truth whose samples are averaged in these values; without any in the picture's own.
+    #[must_use]
+    pub fn truth_in(self, space: Option<ResolveSpace>) -> Self {
+        Self {
+            resolve: space.unwrap_or(self.resolve),
+            ..self.truth()
         }
     }
 

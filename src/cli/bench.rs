@@ -11,7 +11,7 @@ use super::options::bench::BenchOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::progress;
 use crate::plain;
-use crate::render::FrameStats;
+use crate::render::{FrameStats, median, milliseconds};
 
 /// The answer of `bench --json`. Times are milliseconds of wall time.
 #[derive(Debug, Serialize)]
@@ -147,33 +147,5 @@ impl Report {
             self.counters.blocks_split,
             self.counters.samples_shaded,
         )
-    }
-}
-
-pub(super) fn milliseconds(time: Duration) -> f64 {
-    time.as_secs_f64() * 1e3
-}
-
-/// The middle one, or the mean of the two in the middle.
-pub(super) fn median(mut times: Vec<Duration>) -> Duration {
-    times.sort_unstable();
-    let half = times.len() / 2;
-    match times.len() {
-        0 => Duration::ZERO,
-        length if length % 2 == 1 => times[half],
-        _ => (times[half - 1] + times[half]) / 2,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn median_is_the_middle() {
-        let times = |numbers: &[u64]| numbers.iter().map(|n| Duration::from_millis(*n)).collect();
-        assert_eq!(median(times(&[5, 1, 100])), Duration::from_millis(5), "odd");
-        assert_eq!(median(times(&[4, 1, 100, 6])), Duration::from_millis(5), "even");
-        assert_eq!(median(times(&[])), Duration::ZERO, "none");
     }
 }

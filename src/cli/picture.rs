@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use super::failure::{Failure, print_error};
 use super::options::framing::PictureOptions;
@@ -10,7 +11,7 @@ use super::{memory, progress};
 use crate::figure::{Guard, Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, CancelToken, FrameStats, Legend, Subject};
+use crate::render::{self, CancelToken, FrameStats, Legend, Repeats, Subject};
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::{PictureSpec, Restored, SceneSource};
 
@@ -62,6 +63,16 @@ impl Picture {
     /// Draws the picture, on the pool that this is called in.
     pub(super) fn draw(&mut self) -> FrameStats {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
+    }
+
+    /// Draws the picture again and again, and gives the time of each frame that counts; `None` when stopped.
+    pub(super) fn time_draws(&mut self, repeats: Repeats, stop: &CancelToken) -> Option<Vec<Duration>> {
+        let subject = Subject {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.spec.render,
+        };
+        render::time_draws(&subject, &mut self.frame, repeats, stop)
     }
 
     /// As [`Picture::draw`], telling how far it is.

@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::bench::{median, milliseconds};
 use super::failure::{Failure, print, print_error};
 use super::interrupt;
 use super::memory::peak_of_drawing;
@@ -17,9 +16,9 @@ use super::picture::{Picture, on_threads};
 use super::render::{guard_of, name_for_png, unwritable_by};
 use super::size::FrameSize;
 use crate::compare::Pair;
-use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, draw_plot, encode_png, save_files};
+use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, Table, draw_plot, encode_png, save_files};
 use crate::raster::Framebuffer;
-use crate::render::CancelToken;
+use crate::render::{CancelToken, Repeats, median, milliseconds};
 use crate::scene::{DialectChoice, FileDigest, Scene};
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
 
@@ -80,7 +79,7 @@ pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result
             "stopped: {done} of {all} combinations are in {table}"
         )));
     }
-    print(&sweep.text(options))
+    print(&sweep.short_table(options).text())
 }
 
 /// Where the chart goes.
@@ -185,7 +184,11 @@ fn measure(
             told = record(options, spec, &scene);
         }
         let mut picture = Picture::of(spec.clone(), Arc::clone(&scene));
-        let times = times(&mut picture, options.frames, stop);
+        let repeats = Repeats {
+            frames: options.frames,
+            patience: Duration::MAX,
+        };
+        let times = picture.time_draws(repeats, stop);
         let truth = truth(&mut truths, spec, &scene, stop);
         let row = times.zip(truth).and_then(|(times, truth)| {
             let peak = peak_of_drawing(spec, options.framing.threads);
@@ -204,19 +207,6 @@ fn measure(
         rows,
         record: told,
     })
-}
-
-/// The times of some frames, after one that does not count; `None` when stopped.
-fn times(picture: &mut Picture, frames: u32, stop: &CancelToken) -> Option<Vec<Duration>> {
-    picture.draw();
-    let mut times = Vec::new();
-    for _ in 0..frames {
-        if stop.is_cancelled() {
-            return None;
-        }
-        times.push(picture.draw().total());
-    }
-    Some(times)
 }
 
 /// The truth of a picture; drawn unless it is known. `None` when stopped.
@@ -325,8 +315,8 @@ impl Row {
 }
 
 impl Sweep {
-    /// Names and values of the settings that `wanted` names, and what was measured; the first line has the names.
-    fn lines(&self, wanted: impl Fn(&str) -> bool) -> Vec<Vec<String>> {
+    /// Names and values of the settings that `wanted` names, and what was measured.
+    fn table(&self, wanted: impl Fn(&str) -> bool) -> Table {
         let of_choice = |choice: &Choice, part: fn(&(String, String)) -> String| -> Vec<String> {
             choice.iter().filter(|(name, _)| wanted(name)).map(part).collect()
         };
@@ -339,32 +329,20 @@ impl Sweep {
             values.extend(row.cells());
             values
         });
-        std::iter::once(names).chain(lines).collect()
+        Table {
+            lines: std::iter::once(names).chain(lines).collect(),
+        }
     }
 
-    /// The table as it is written (RFC 4180; no value has a comma, a quote or a line break in it).
-    fn csv(&self) -> String {
-        let lines = self.lines(|_| true);
-        lines.iter().map(|cells| cells.join(",") + "\r\n").collect()
-    }
-
-    /// The table for a reader at a terminal, without settings that all rows share.
-    fn text(&self, options: &SweepOptions) -> String {
-        let lines = self.lines(|name| options.axes.0.axes().any(|axis| axis.name == name));
-        let columns = lines.first().map_or(0, Vec::len);
-        let width = |column: usize| lines.iter().map(|cells| cells[column].chars().count()).max();
-        let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
-        let line = |cells: &Vec<String>| {
-            let padded = cells.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
-            padded.collect::<Vec<_>>().join("  ")
-        };
-        lines.iter().map(line).collect::<Vec<_>>().join("\n")
+    /// The table for a reader, without settings that all rows share.
+    fn short_table(&self, options: &SweepOptions) -> Table {
+        self.table(|name| options.axes.0.axes().any(|axis| axis.name == name))
     }
 
     /// Writes table and chart, or neither.
     fn write(&self, options: &SweepOptions, chart: &Path, mut guard: Guard) -> Result<(), Failure> {
         guard.protect_contents(self.textures.iter().copied());
-        let mut files = vec![NewFile::by_user(&options.csv, self.csv().into_bytes())];
+        let mut files = vec![NewFile::by_user(&options.csv, self.table(|_| true).csv().into_bytes())];
         match draw_plot(&self.plot(options), CHART) {
             Ok(picture) => {
                 let bytes = encode_png(&picture, Some(&self.record)).map_err(|error| unwritable(chart, &error))?;

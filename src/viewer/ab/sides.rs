@@ -33,13 +33,7 @@ impl Comparison {
     pub fn other_settings(&self, own: &Settings) -> Option<RenderSettings> {
         match self.other()? {
             Other::Settings { render, .. } => Some(*render),
-            Other::Truth(resolve) => {
-                let own = own.render;
-                Some(RenderSettings {
-                    resolve: resolve.unwrap_or(own.resolve),
-                    ..own.truth()
-                })
-            }
+            Other::Truth(space) => Some(own.render.truth_in(*space)),
             Other::Picture(_) => None,
         }
     }

@@ -10,6 +10,7 @@ use super::examples::with_examples;
 use super::failure::{Failure, one_line};
 use super::help;
 use super::options::bench::BenchOptions;
+use super::options::board::BoardOptions;
 use super::options::diff::DiffOptions;
 use super::options::inspect::InspectOptions;
 use super::options::lesson::LessonOptions;
@@ -51,6 +52,8 @@ pub(super) enum Verb {
     /// Measure each combination of settings: time, memory, and how far the picture is from the truth
     #[command(after_help = SWEEP_FILES)]
     Sweep(SweepOptions),
+    /// Compare up to nine settings of one region with the truth: RMSE, FLIP, time, as a table and a picture
+    Board(BoardOptions),
     /// Draw every figure of a write-up, and a page that shows them
     #[command(after_help = WRITEUP_FILES)]
     Writeup(WriteupOptions),
@@ -81,6 +84,7 @@ impl Verb {
             // Each panel has its own.
             Self::Sheet(_) | Self::Sweep(_) | Self::Writeup(_) | Self::Rerun(_) | Self::Pattern(_) => None,
             Self::Lesson(options) => Some(&options.view.sampling),
+            Self::Board(options) => Some(&options.picture.sampling),
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
@@ -95,6 +99,7 @@ impl Verb {
             Self::Render(options) => Some(&mut options.scene),
             Self::Sheet(options) => Some(&mut options.scene),
             Self::Sweep(options) => Some(&mut options.scene),
+            Self::Board(options) => Some(&mut options.scene),
             Self::Inspect(options) => Some(&mut options.scene),
             Self::Profile(options) => Some(&mut options.scene),
             _ => None,
@@ -298,6 +303,14 @@ mod tests {
             "rasterscope pattern --sample-rate 257",
             "rasterscope pattern --seed 65536",
             "rasterscope pattern --pixel 5",
+            "rasterscope board a.svg --with sample-rate=16 --sort ssim",
+            "rasterscope board a.svg --vary pattern --region 1,2,3",
+            "rasterscope board a.svg --vary pattern --region 1,2,0,3",
+            "rasterscope board a.svg --vary pattern --region -1,2,3,3",
+            "rasterscope board a.svg --vary pattern --truth-space gamma",
+            "rasterscope board a.svg --vary pattern --markdown --csv",
+            "rasterscope board a.svg --vary pattern --frames 0",
+            "rasterscope board a.svg --vary pattern --sample-rate 5",
             "rasterscope profile a.svg",
             "rasterscope profile a.svg --line 1,2,3",
             "rasterscope profile a.svg --line 1,2,3,x",

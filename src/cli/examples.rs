@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Commands with their examples: a line to type, and what it does.
-pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
+pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 13] = [
     (
         "view",
         &[
@@ -54,6 +54,19 @@ pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
             "rasterscope sweep drawing.svg --sample-rate 1,4,16 --pattern grid,rotated --csv quality.csv",
             "time and distance from the truth of six combinations",
         )],
+    ),
+    (
+        "board",
+        &[
+            (
+                "rasterscope board drawing.svg --sample-rate 16 --vary pattern=grid,sobol,r2 -o patterns.png",
+                "which of three patterns is nearest to the truth",
+            ),
+            (
+                "rasterscope board drawing.svg --with A --with resolve-filter=mitchell --markdown",
+                "two settings, as a table for documents",
+            ),
+        ],
     ),
     (
         "writeup",

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod bench;
+mod board;
 mod diff;
 mod examples;
 mod failure;
@@ -109,6 +110,7 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::Sweep(options) => sweep::run(options, restored),
         Verb::Writeup(options) => writeup::run(options),
         Verb::Rerun(options) => rerun::run(options),
+        Verb::Board(options) => board::run(options, restored),
         Verb::Inspect(options) => inspect::run(options, restored),
         Verb::Diff(options) => diff::run(options),
         Verb::Lesson(options) => lesson::run(options),

@@ -8,7 +8,7 @@ use super::options::rerun::RerunOptions;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
 use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
-use super::{diff, lesson, sheet};
+use super::{board, diff, lesson, sheet};
 use crate::compare;
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::plain;
@@ -131,6 +131,14 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
                 record: sheet.record,
                 frame: sheet.picture,
             })
+        }
+        Verb::Board(mut of_board) => {
+            let restored = restored(options)?;
+            of_board.scene = scene_path(&restored);
+            let (frame, record, inputs) = board::picture_of(&of_board, output)?;
+            let mut again = alone((frame, record));
+            again.guard = inputs.with(shot);
+            Ok(again)
         }
         Verb::Diff(of_diff) => {
             let (frame, record, inputs) = diff::picture(&of_diff, output)?;

@@ -42,6 +42,7 @@ pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
     match verb_of(&record.arguments)? {
         Verb::Render(options) => Ok(spec_of_render(&options)),
         Verb::Sheet(options) => super::sheet::spec(&options),
+        Verb::Board(options) => Ok(super::board::own(&options)),
         _ => Err(NO_SCENE.to_owned()),
     }
 }

@@ -20,7 +20,7 @@ use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, Table, draw
 use crate::raster::Framebuffer;
 use crate::render::{CancelToken, Repeats, median, milliseconds};
 use crate::scene::{DialectChoice, FileDigest, Scene};
-use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
+use crate::viewer::{BoardNumbers, BoardSort, Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
 
 /// Most combinations of a sweep.
 const MAX_CHOICES: usize = 1000;
@@ -61,7 +61,7 @@ struct Truth {
 /// Measures every combination and writes table and chart.
 pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     let chart = chart_of(options);
-    check_outputs(&options.csv, &chart)?;
+    check_outputs(options, &chart)?;
     let guard = guard(options, restored)?;
     let specs = specs(options)?;
     let stop = interrupt::token();
@@ -89,15 +89,16 @@ fn chart_of(options: &SweepOptions) -> PathBuf {
 }
 
 /// Says before minutes of work what would fail after it.
-fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
+fn check_outputs(options: &SweepOptions, chart: &Path) -> Result<(), Failure> {
     name_for_png(chart)?;
-    if chart == csv {
-        return Err(Failure::input(format!(
-            "{}: table and chart cannot be one file; end --csv in .csv",
-            chart.display()
-        )));
-    }
-    for file in [csv, chart] {
+    let files: Vec<&Path> = outputs(options, chart).map(|(path, _)| path).collect();
+    for (number, file) in files.iter().enumerate() {
+        if files[..number].contains(file) {
+            return Err(Failure::input(format!(
+                "{}: tables and chart cannot be one file; end --csv in .csv, --markdown in .md",
+                file.display()
+            )));
+        }
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
         if folder.is_some_and(|folder| !folder.is_dir()) {
             return Err(unwritable(file, &io::Error::from(io::ErrorKind::NotFound)));
@@ -106,9 +107,16 @@ fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The files that are written, and who named them.
+fn outputs<'o>(options: &'o SweepOptions, chart: &'o Path) -> impl Iterator<Item = (&'o Path, Named)> {
+    let markdown = options.markdown.as_deref().map(|path| (path, Named::ByUser));
+    let tables = [(options.csv.as_path(), Named::ByUser)].into_iter().chain(markdown);
+    tables.chain([(chart, chart_named(options))])
+}
+
 /// A table or chart could not be written.
 fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    unwritable_by("--csv or --plot", path, error)
+    unwritable_by("--csv, --markdown or --plot", path, error)
 }
 
 /// Who chose the name of the chart.
@@ -122,10 +130,7 @@ fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, F
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }
-    for (path, named) in [
-        (&options.csv, Named::ByUser),
-        (&chart_of(options), chart_named(options)),
-    ] {
+    for (path, named) in outputs(options, &chart_of(options)) {
         guard.target(path, named).map_err(|error| unwritable(path, &error))?;
     }
     Ok(guard)
@@ -189,7 +194,7 @@ fn measure(
             patience: Duration::MAX,
         };
         let times = picture.time_draws(repeats, stop);
-        let truth = truth(&mut truths, spec, &scene, stop);
+        let truth = truth(&mut truths, &truth_of(options, spec), &scene, stop);
         let row = times.zip(truth).and_then(|(times, truth)| {
             let peak = peak_of_drawing(spec, options.framing.threads);
             row(times, peak, Pair::new(picture.frame(), truth).ok()?, stop)
@@ -209,18 +214,22 @@ fn measure(
     })
 }
 
-/// The truth of a picture; drawn unless it is known. `None` when stopped.
+/// What the truth of a picture draws.
+fn truth_of(options: &SweepOptions, spec: &PictureSpec) -> PictureSpec {
+    PictureSpec {
+        render: spec.render.truth_in(options.truth_space),
+        ..spec.clone()
+    }
+}
+
+/// A truth; drawn unless it is known. `None` when stopped.
 fn truth<'t>(
     truths: &'t mut Vec<Truth>,
     spec: &PictureSpec,
     scene: &Arc<Scene>,
     stop: &CancelToken,
 ) -> Option<&'t Framebuffer> {
-    let spec = PictureSpec {
-        render: spec.render.truth(),
-        ..spec.clone()
-    };
-    if !truths.iter().any(|truth| truth.spec == spec) {
+    if !truths.iter().any(|truth| truth.spec == *spec) {
         let mut picture = Picture::of(spec.clone(), Arc::clone(scene));
         picture.draw();
         // Lists rarely make several truths; two that alternate are not drawn again and again.
@@ -234,7 +243,7 @@ fn truth<'t>(
             },
         );
     }
-    let known = truths.iter().find(|truth| truth.spec == spec);
+    let known = truths.iter().find(|truth| truth.spec == *spec);
     known.filter(|_| !stop.is_cancelled()).map(|truth| &truth.frame)
 }
 
@@ -268,6 +277,11 @@ fn record(options: &SweepOptions, first: &PictureSpec, scene: &Scene) -> Record 
         format!("--frames={}", options.frames),
         format!("--quality={}", options.quality.name()),
     ]);
+    words.extend(
+        options
+            .truth_space
+            .map(|space| format!("--truth-space={}", space.name())),
+    );
     let plain = plain_record(words, first.size);
     Record {
         arguments: plain.arguments,
@@ -300,6 +314,15 @@ impl Row {
         }
     }
 
+    /// What rows are sorted by.
+    fn numbers(&self) -> BoardNumbers {
+        BoardNumbers {
+            rmse: self.rmse,
+            flip: self.flip,
+            time: Duration::from_secs_f64(self.median_ms / 1e3),
+        }
+    }
+
     /// The values of [`COLUMNS`]; empty where the system does not tell.
     fn cells(&self) -> [String; 7] {
         [
@@ -315,8 +338,18 @@ impl Row {
 }
 
 impl Sweep {
+    /// What was measured, in the order in which it is told.
+    fn sorted(&self, sort: Option<BoardSort>) -> Vec<(&Choice, &Row)> {
+        let choices = self.specs.iter().map(|(choice, _)| choice);
+        let mut rows: Vec<(&Choice, &Row)> = choices.zip(&self.rows).collect();
+        if let Some(sort) = sort {
+            rows.sort_by(|(_, a), (_, b)| sort.order(Some(&a.numbers()), Some(&b.numbers())));
+        }
+        rows
+    }
+
     /// Names and values of the settings that `wanted` names, and what was measured.
-    fn table(&self, wanted: impl Fn(&str) -> bool) -> Table {
+    fn table(&self, options: &SweepOptions, wanted: impl Fn(&str) -> bool) -> Table {
         let of_choice = |choice: &Choice, part: fn(&(String, String)) -> String| -> Vec<String> {
             choice.iter().filter(|(name, _)| wanted(name)).map(part).collect()
         };
@@ -324,7 +357,8 @@ impl Sweep {
             of_choice(choice, |(name, _)| name.replace('-', "_"))
         });
         names.extend(COLUMNS.map(str::to_owned));
-        let lines = self.specs.iter().zip(&self.rows).map(|((choice, _), row)| {
+        let rows = self.sorted(options.sort).into_iter();
+        let lines = rows.map(|(choice, row)| {
             let mut values = of_choice(choice, |(_, value)| value.clone());
             values.extend(row.cells());
             values
@@ -336,13 +370,18 @@ impl Sweep {
 
     /// The table for a reader, without settings that all rows share.
     fn short_table(&self, options: &SweepOptions) -> Table {
-        self.table(|name| options.axes.0.axes().any(|axis| axis.name == name))
+        self.table(options, |name| options.axes.0.axes().any(|axis| axis.name == name))
     }
 
     /// Writes table and chart, or neither.
     fn write(&self, options: &SweepOptions, chart: &Path, mut guard: Guard) -> Result<(), Failure> {
         guard.protect_contents(self.textures.iter().copied());
-        let mut files = vec![NewFile::by_user(&options.csv, self.table(|_| true).csv().into_bytes())];
+        let table = self.table(options, |_| true).csv();
+        let mut files = vec![NewFile::by_user(&options.csv, table.into_bytes())];
+        if let Some(markdown) = &options.markdown {
+            let table = self.short_table(options).markdown();
+            files.push(NewFile::by_user(markdown, table.into_bytes()));
+        }
         match draw_plot(&self.plot(options), CHART) {
             Ok(picture) => {
                 let bytes = encode_png(&picture, Some(&self.record)).map_err(|error| unwritable(chart, &error))?;

@@ -37,6 +37,6 @@ pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
 pub use shrink::shrunk;
 pub use snippets::{Figure, html, latex, markdown};
-pub use table::Table;
+pub use table::{Table, TableFormat};
 pub use tag::{Tag, add_tags, tag_unit};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

@@ -1,5 +1,27 @@
 //! Tables of what was measured, as others read them: for spreadsheets, for documents, for a terminal.
 
+/// How a table is written for others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TableFormat {
+    /// For documents.
+    Markdown,
+    /// For spreadsheets.
+    Csv,
+}
+
+impl TableFormat {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 2] = [Self::Markdown, Self::Csv];
+
+    /// The name in scripts.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Markdown => "markdown",
+            Self::Csv => "csv",
+        }
+    }
+}
+
 /// Lines of cells; the first has the names of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
@@ -52,7 +74,9 @@ fn csv_cell(cell: &str) -> String {
 }
 
 fn markdown_cell(cell: &str) -> String {
-    cell.replace('\\', "\\\\").replace('|', "\\|").replace(['\n', '\r'], " ")
+    cell.replace('\\', "\\\\")
+        .replace('|', "\\|")
+        .replace(['\n', '\r'], " ")
 }
 
 #[cfg(test)]
@@ -62,7 +86,11 @@ mod tests {
     fn table() -> Table {
         let line = |cells: [&str; 2]| cells.map(str::to_owned).to_vec();
         Table {
-            lines: vec![line(["settings", "rmse"]), line(["a, \"b\"", "1.5"]), line(["c|d", "12"])],
+            lines: vec![
+                line(["settings", "rmse"]),
+                line(["a, \"b\"", "1.5"]),
+                line(["c|d", "12"]),
+            ],
         }
     }
 

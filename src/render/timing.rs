@@ -21,8 +21,7 @@ pub fn time_draws(
     repeats: Repeats,
     cancel: &CancelToken,
 ) -> Option<Vec<Duration>> {
-    let mut draw =
-        || Some(draw_cancellable(subject.scene, subject.view, subject.settings, frame, cancel)?.total());
+    let mut draw = || Some(draw_cancellable(subject.scene, subject.view, subject.settings, frame, cancel)?.total());
     let first = draw()?;
     let (mut times, mut spent) = (Vec::new(), first);
     for _ in 0..repeats.frames {
@@ -76,7 +75,10 @@ mod tests {
     #[test]
     fn frames_are_timed_as_often_as_patience_lasts() {
         let scene = load("svg/basic/test1.svg".as_ref(), DialectChoice::Auto).expect("a scene");
-        let (view, settings) = (View::Default.transform(scene.canvas, [20, 20]), RenderSettings::default());
+        let (view, settings) = (
+            View::Default.transform(scene.canvas, [20, 20]),
+            RenderSettings::default(),
+        );
         let subject = Subject {
             scene: &scene,
             view: &view,

@@ -24,6 +24,7 @@
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
 
 mod ab;
+mod board;
 mod chrome;
 mod command;
 mod control;
@@ -45,6 +46,9 @@ pub use ab::comparison::Comparison;
 pub use ab::measuring::{Measures, Seen};
 pub use ab::other::{Against, Arrangement, Other};
 pub use ab::outside::OutsidePicture;
+pub use board::entry::{AS_A, BoardEntry, BoardSort, MAX_ENTRIES};
+pub use board::measure::{BoardMeasure, BoardNumbers, BoardPlace, BoardTile};
+pub use board::report::{BoardCommandLine, BoardReport};
 pub use chrome::ending::ASKS_FOR;
 pub use chrome::interface_scale::InterfaceScale;
 pub use chrome::messages::{Message, MessageKind, NO_ROOM};
@@ -54,9 +58,10 @@ pub use command::key_bindings as commands;
 pub use command::key_bindings::Gesture;
 pub use command::spec::{Action, CommandSpec, Group};
 pub use command::{
-    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
-    SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, BoardCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand,
+    ProfileCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
 };
+pub use control::boarded::{Boarded, ShownTile};
 pub use control::both::Both;
 pub use control::open::kind_of_file;
 pub use control::pointing::Pointing;

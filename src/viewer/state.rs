@@ -13,6 +13,8 @@ use crate::viewer::ab::measuring::{Measured, Measuring};
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::ReadPicture;
 use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::board::Board;
+use crate::viewer::board::measuring::{BoardMeasuring, BoardNews};
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::MessageKind;
 use crate::viewer::export::naming::NameTemplate;
@@ -82,6 +84,7 @@ pub struct Viewer {
     pub(in crate::viewer) ab: Comparison,
     pub(in crate::viewer) inspector: Inspection,
     pub(in crate::viewer) profiling: Profiling,
+    pub(in crate::viewer) board: Board,
     pub(in crate::viewer) export: Export,
     /// The sheet that is being put together.
     pub(in crate::viewer) sheet: SheetDesk,
@@ -121,6 +124,7 @@ pub(in crate::viewer) enum Finished {
     Explained(Asked, Box<Option<Explained>>),
     Contributed(Target, Box<Option<Contributions>>),
     Profiled(LineOfPicture, Option<Profile>),
+    Board(BoardNews),
     Thumbnail(Thumbnail),
     Saved(Saved),
     SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
@@ -196,6 +200,7 @@ impl Viewer {
             profiling: Profiling::new(truth::start(
                 mailbox.of(|(asked, found)| Finished::Profiled(asked, found)),
             )?),
+            board: Board::new(BoardMeasuring::start(mailbox.of(Finished::Board))?),
             export: Export {
                 saver,
                 grammar: options.grammar,

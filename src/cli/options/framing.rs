@@ -8,7 +8,7 @@ use crate::cli::view_option;
 use crate::geometry::View;
 
 /// What every command that draws understands.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct PictureOptions {
     /// Pixels of the picture
     #[arg(long, default_value = "1024x1024", value_name = "WxH")]

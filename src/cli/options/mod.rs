@@ -3,6 +3,7 @@
 //! They stand below the commands: a record, and with it `rerun`, reads the options of others.
 
 pub(in crate::cli) mod bench;
+pub(in crate::cli) mod board;
 pub(in crate::cli) mod diff;
 pub(in crate::cli) mod framing;
 pub(in crate::cli) mod inspect;

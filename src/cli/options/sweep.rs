@@ -7,6 +7,8 @@ use clap::Args;
 use super::framing::FramingOptions;
 use super::lists::Lists;
 use crate::cli::size::FrameSize;
+use crate::color::ResolveSpace;
+use crate::viewer::BoardSort;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SweepOptions {
@@ -15,6 +17,15 @@ pub(in crate::cli) struct SweepOptions {
     /// The table to write
     #[arg(long, value_name = "OUT.csv")]
     pub(in crate::cli) csv: PathBuf,
+    /// The table to write as Markdown as well, without settings that all rows share
+    #[arg(long, value_name = "OUT.md")]
+    pub(in crate::cli) markdown: Option<PathBuf>,
+    /// Which rows of the tables come first: the least error, what people see least of it, or the least time [default: the order of the lists]
+    #[arg(long, value_enum)]
+    pub(in crate::cli) sort: Option<BoardSort>,
+    /// Average the samples of every truth in these values [default: those of the combination]
+    #[arg(long, value_name = "SPACE", value_enum)]
+    pub(in crate::cli) truth_space: Option<ResolveSpace>,
     /// The chart to write [default: the table's name, ending in .png]
     #[arg(long, value_name = "OUT.png")]
     pub(in crate::cli) plot: Option<PathBuf>,

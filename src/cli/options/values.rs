@@ -5,9 +5,10 @@ use clap::builder::PossibleValue;
 
 use super::sweep::Quality;
 use super::writeup::Assignment;
+use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
 use crate::figure::Ground;
-use crate::viewer::Theme;
+use crate::viewer::{BoardSort, Theme};
 
 /// Gives a settings enum its names on the command line, which are its names everywhere.
 macro_rules! named_values {
@@ -24,4 +25,13 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(Quality, Theme, Measure, ProfileChannel, Ground, Assignment);
+named_values!(
+    BoardSort,
+    ResolveSpace,
+    Quality,
+    Theme,
+    Measure,
+    ProfileChannel,
+    Ground,
+    Assignment
+);

@@ -73,6 +73,21 @@ impl Framebuffer {
         }
     }
 
+    /// The pixels of `region`, as far as the frame has them.
+    #[must_use]
+    pub fn cut(&self, region: Region) -> Self {
+        let whole = Region::of_size([self.width, self.height]);
+        let Region { x, y, width, height } = region.intersection(whole);
+        let rows = self.pixels.chunks_exact(self.width.max(1) as usize);
+        let (left, right) = (x as usize, x as usize + width as usize);
+        let rows = rows.skip(y as usize).take(height as usize);
+        Self {
+            width,
+            height,
+            pixels: rows.flat_map(|row| &row[left..right]).copied().collect(),
+        }
+    }
+
     /// The pixel in column `x` of row `y` as straight `[r, g, b, a]`, or `None` outside the frame.
     pub fn rgba(&self, x: u32, y: u32) -> Option<[u8; 4]> {
         if x >= self.width || y >= self.height {
@@ -80,5 +95,28 @@ impl Framebuffer {
         }
         let [a, r, g, b] = self.pixels[y as usize * self.width as usize + x as usize].to_be_bytes();
         Some([r, g, b, a])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cut_has_the_pixels_of_its_region() {
+        let mut frame = Framebuffer::new(4, 3);
+        for (number, pixel) in (0..).zip(frame.pixels_mut()) {
+            *pixel = number;
+        }
+        let region = |x, y, width, height| Region { x, y, width, height };
+        let cut = frame.cut(region(1, 1, 2, 2));
+        assert_eq!([cut.width(), cut.height()], [2, 2], "its size");
+        assert_eq!(cut.pixels(), [5, 6, 9, 10], "its pixels");
+        assert_eq!(
+            frame.cut(region(3, 2, 9, 9)).pixels(),
+            [11],
+            "what lies outside is left out"
+        );
+        assert!(frame.cut(region(9, 0, 2, 2)).pixels().is_empty(), "all of it");
     }
 }

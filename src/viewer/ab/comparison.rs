@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::color::ResolveSpace;
 use crate::compare::{DifferencePaint, DifferenceStyle};
 use crate::raster::Framebuffer;
 use crate::viewer::ab::measuring::{Measured, Measuring, Stage};
@@ -21,6 +22,7 @@ impl Comparison {
     pub(in crate::viewer) fn new(drawn: Mailbox<Drawn>, measuring: Measuring) -> Self {
         Self {
             other: None,
+            truth_space: None,
             arrangement: Arrangement::Alone,
             style: DifferenceStyle::default(),
             gain: 1.0,
@@ -48,6 +50,8 @@ impl Comparison {
 #[derive(Debug)]
 pub struct Comparison {
     pub(in crate::viewer) other: Option<Other>,
+    /// In which values the truth is averaged, where that was chosen and B says nothing else.
+    pub(in crate::viewer) truth_space: Option<ResolveSpace>,
     /// Whether B stands where A else does; settings change places instead.
     pub(in crate::viewer) swapped: bool,
     pub(in crate::viewer) arrangement: Arrangement,

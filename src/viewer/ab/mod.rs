@@ -8,5 +8,5 @@ pub(in crate::viewer) mod measuring;
 pub(in crate::viewer) mod other;
 pub(in crate::viewer) mod outside;
 pub(in crate::viewer) mod requests;
-mod sides;
+pub(in crate::viewer) mod sides;
 mod wipe;

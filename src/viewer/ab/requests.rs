@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crate::color::ResolveSpace;
 use crate::compare::{Gain, Measure};
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::{Against, Arrangement, Other};
@@ -163,6 +164,14 @@ impl Comparison {
                 self.touch();
             }
             Some(_) => {}
+        }
+    }
+
+    /// The truth is averaged in these values, or in those of A; what was said with an earlier truth counts no more.
+    pub(in crate::viewer) fn set_truth_space(&mut self, space: Option<ResolveSpace>) {
+        self.truth_space = space;
+        if let Some(Other::Truth(own)) = &mut self.other {
+            *own = None;
         }
     }
 

@@ -8,13 +8,13 @@ use crate::viewer::ab::other::Other;
 use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::settings::{Settings, picture};
 
-/// What the truth is.
-fn truth_words(resolve: ResolveSpace) -> String {
+/// What the truth is whose samples are averaged so.
+pub(in crate::viewer) fn truth_words(resolve: ResolveSpace) -> String {
     let values = match resolve {
         ResolveSpace::Stored => "stored values",
         ResolveSpace::Linear => "linear light",
     };
-    format!("B: the truth, 256 samples in {values}")
+    format!("256 samples in {values}")
 }
 
 /// A setting by its name, its value in A, its value in B.
@@ -33,9 +33,19 @@ impl Comparison {
     pub fn other_settings(&self, own: &Settings) -> Option<RenderSettings> {
         match self.other()? {
             Other::Settings { render, .. } => Some(*render),
-            Other::Truth(space) => Some(own.render.truth_in(*space)),
+            Other::Truth(_) => Some(own.render.truth_in(self.truth_space())),
             Other::Picture(_) => None,
         }
+    }
+
+    /// In which values the truth is averaged, where not in those of A: as B was chosen, if that is the truth, or as it was
+    /// chosen for every truth.
+    pub fn truth_space(&self) -> Option<ResolveSpace> {
+        let of_b = match self.other() {
+            Some(Other::Truth(space)) => *space,
+            _ => None,
+        };
+        of_b.or(self.truth_space)
     }
 
     /// The dialect that B's scene is read in, where that is not A's.
@@ -89,7 +99,10 @@ impl Comparison {
         let b = match self.other()? {
             Other::Settings { .. } if b.is_empty() => "B".to_owned(),
             Other::Settings { .. } => format!("B: {}", b.join(", ")),
-            Other::Truth(resolve) => truth_words(resolve.unwrap_or(own.render.resolve)),
+            Other::Truth(_) => {
+                let space = self.truth_space().unwrap_or(own.render.resolve);
+                format!("B: the truth, {}", truth_words(space))
+            }
             Other::Picture(picture) => format!("B: {}", picture.name()),
         };
         Some([a, b])

@@ -1,21 +1,24 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
 use crate::viewer::{
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand, SheetCommand, ViewCommand,
-    WindowCommand,
+    AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand,
+    SheetCommand, ViewCommand, WindowCommand,
 };
 use std::borrow::Cow;
 use std::path::PathBuf;
 
 use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
-use crate::figure::Ground;
+use crate::figure::{Ground, TableFormat};
 use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::board::SIDES;
+use crate::viewer::board::entry::BoardSort;
 use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::command::Command;
 use crate::viewer::export::sheet::axes::Axis;
 use crate::viewer::export::sheet::draft::{PanelSize, SheetChange, SheetSide};
 use crate::viewer::lesson::source::LessonSource;
+use crate::viewer::settings::picture;
 use crate::viewer::settings::picture::PictureSetting;
 use crate::viewer::settings::values::{named, number, path, pixels, point, toggle, whole};
 use crate::viewer::settings::{PixelZoom, Theme, Toggle};
@@ -131,6 +134,66 @@ pub(in crate::viewer) const TRUTH: Argument = argument("stored|linear", |text| {
     let resolve = named(&ResolveSpace::ALL, ResolveSpace::name, text)?;
     Some(Command::Ab(AbCommand::Compare(Against::Truth(Some(resolve)))))
 });
+
+pub(in crate::viewer) const TRUTH_SPACE: Argument = argument("a|stored|linear", |text| {
+    let space = match text {
+        "a" => None,
+        text => Some(named(&ResolveSpace::ALL, ResolveSpace::name, text)?),
+    };
+    Some(Command::Ab(AbCommand::SetTruthSpace(space)))
+});
+
+pub(in crate::viewer) const BOARD: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(BoardCommand::Show).map(Command::Board)
+});
+
+pub(in crate::viewer) const BOARD_ADD: Argument =
+    argument("changes of A such as \"sample-rate 16, pattern sobol\"", |text| {
+        picture::parse_changes(text).map(BoardCommand::Add).map(Command::Board)
+    });
+
+pub(in crate::viewer) const BOARD_VARY: Argument = argument(
+    "a setting, with or without values, such as sample-rate 1,4,16",
+    |text| {
+        let axis = match text.split_once(char::is_whitespace) {
+            Some((name, values)) => Axis::of(name, values).ok()?,
+            None => Axis::first(picture::find(text)?),
+        };
+        Some(Command::Board(BoardCommand::Vary(axis)))
+    },
+);
+
+pub(in crate::viewer) const BOARD_REMOVE: Argument = argument("the number of a tile, from 1", |text| {
+    tile(text).map(BoardCommand::Remove).map(Command::Board)
+});
+
+pub(in crate::viewer) const BOARD_A: Argument = argument("the number of a tile, from 1", |text| {
+    tile(text).map(BoardCommand::MakeA).map(Command::Board)
+});
+
+pub(in crate::viewer) const BOARD_SORT: Argument = argument(BoardSort::FORM, |text| {
+    named(&BoardSort::ALL, BoardSort::name, text)
+        .map(BoardCommand::Sort)
+        .map(Command::Board)
+});
+
+pub(in crate::viewer) const BOARD_REGION: Argument = argument("a whole number from 16 to 256", |text| {
+    whole(text)
+        .filter(|side| (SIDES[0]..=SIDES[2]).contains(side))
+        .map(BoardCommand::SetSide)
+        .map(Command::Board)
+});
+
+pub(in crate::viewer) const BOARD_COPY: Argument = argument("markdown|csv", |text| {
+    named(&TableFormat::ALL, TableFormat::name, text)
+        .map(BoardCommand::Copy)
+        .map(Command::Board)
+});
+
+/// The place of a tile, counted from 0.
+fn tile(text: &str) -> Option<usize> {
+    usize::try_from(whole(text)?).ok()?.checked_sub(1)
+}
 
 pub(in crate::viewer) const AGAINST: Argument = argument(
     "settings|truth|truth stored|truth linear|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",

@@ -15,8 +15,8 @@ use crate::raster::Framebuffer;
 use crate::viewer::settings::picture::SettingChange;
 
 pub use parts::{
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand, SceneCommand,
-    SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
+    SceneCommand, SheetCommand, ViewCommand, WindowCommand,
 };
 
 /// One thing that a user can do, by the part of the viewer that it is about.
@@ -40,6 +40,8 @@ pub enum Command {
     Inspector(InspectorCommand),
     /// The profile of an edge.
     Profile(ProfileCommand),
+    /// Several settings beside the truth.
+    Board(BoardCommand),
     /// What leaves the program.
     Export(ExportCommand),
     /// The sheet that is being put together.

@@ -4,14 +4,18 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
+use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
-use crate::figure::PixelRect;
+use crate::figure::{PixelRect, TableFormat};
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::board::entry::BoardSort;
 use crate::viewer::chrome::Dialog;
 use crate::viewer::chrome::interface_scale::InterfaceScale;
+use crate::viewer::export::sheet::axes::Axis;
 use crate::viewer::export::sheet::draft::SheetChange;
 use crate::viewer::lesson::source::LessonSource;
+use crate::viewer::settings::picture::SettingChange;
 use crate::viewer::settings::{PixelZoom, Theme, Toggle};
 use crate::viewer::view::camera::ViewNumbers;
 use crate::viewer::view::pointer::PointerButton;
@@ -104,6 +108,8 @@ pub enum AbCommand {
     NextDifference,
     /// Whether the largest difference takes the last colour.
     Normalize(Toggle),
+    /// The truth is averaged in these values, or without any in A's.
+    SetTruthSpace(Option<ResolveSpace>),
 }
 
 /// Which scene is shown.
@@ -180,6 +186,33 @@ pub enum ProfileCommand {
     SetLine([[i64; 2]; 2]),
     /// Plots this of the colours.
     SetChannel(ProfileChannel),
+}
+
+/// Several settings of one region, beside the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BoardCommand {
+    /// Opens or closes the board.
+    Show(Toggle),
+    /// Adds A's settings.
+    AddA,
+    /// Adds A's settings with these changes.
+    Add(Vec<SettingChange>),
+    /// An entry for each value of a setting takes the place of all others.
+    Vary(Axis),
+    /// Removes the entry with this place in the order that is shown, counted from 0.
+    Remove(usize),
+    /// Removes all entries.
+    Clear,
+    /// Sorts entries by this.
+    Sort(BoardSort),
+    /// A takes the settings of the entry with this place, counted from 0.
+    MakeA(usize),
+    /// This many pixels along each side of the region, kept within 16 to 256.
+    SetSide(u32),
+    /// Copies the table.
+    Copy(TableFormat),
+    /// Saves the board as a picture.
+    Save,
 }
 
 /// What leaves the program.

@@ -66,6 +66,10 @@ impl Viewer {
             Command::Lesson(command) => self.opening().lessons().apply(command),
             Command::Inspector(command) => self.hand().apply_inspector(command),
             Command::Profile(command) => self.hand().apply_profile(command),
+            Command::Board(command) => {
+                let copied = self.apply_board(command);
+                return tell_copied(&mut self.chrome, copied);
+            }
             Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
             Command::Export(ExportCommand::OpenFolder) => {
                 return vec![Effect::OpenFolder(self.export.saver.folder_to_show())];

@@ -39,6 +39,7 @@ impl Comparing<'_> {
             AbCommand::StepGain(steps) => self.ab.step_gain(steps, context),
             AbCommand::NextDifference => self.ab.want_next_difference(context),
             AbCommand::Normalize(toggle) => self.ab.normalize(toggle, context),
+            AbCommand::SetTruthSpace(space) => self.ab.set_truth_space(space),
         }
     }
 

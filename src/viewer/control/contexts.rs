@@ -76,6 +76,7 @@ impl Viewer {
             ab: &mut self.ab,
             inspector: &mut self.inspector,
             profiling: &mut self.profiling,
+            board: &mut self.board,
             export: &mut self.export,
         }
     }

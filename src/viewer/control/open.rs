@@ -11,6 +11,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::is_picture;
 use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::board::Board;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::control::lesson::Lessons;
 use crate::viewer::export::restored::Restored;
@@ -47,6 +48,7 @@ pub(in crate::viewer) struct Opening<'a> {
     pub(in crate::viewer) ab: &'a mut Comparison,
     pub(in crate::viewer) inspector: &'a mut Inspection,
     pub(in crate::viewer) profiling: &'a mut Profiling,
+    pub(in crate::viewer) board: &'a mut Board,
     pub(in crate::viewer) export: &'a mut Export,
 }
 
@@ -150,7 +152,7 @@ impl Opening<'_> {
         if self.chrome.close_latest() {
             return true;
         }
-        if self.scene_list.give_up_reading() || self.profiling.escape() {
+        if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() {
             return true;
         }
         let mut context = ComparisonContext {

@@ -152,7 +152,8 @@ impl Profiled<'_> {
         let line = self.line()?;
         let picture = self.both.frames.frame()?.picture.clone();
         let is_b = matches!(self.both.ab.other(), Some(Other::Truth(_)));
-        (!is_b).then_some(LineOfPicture { picture, line })
+        let space = self.both.ab.truth_space();
+        (!is_b).then_some(LineOfPicture { picture, line, space })
     }
 }
 

@@ -65,6 +65,7 @@ impl Recipes<'_> {
         Some(Recipe {
             spec: self.picture_spec()?,
             scene: Arc::clone(self.both.scene_list.current()?.scene()?),
+            command: None,
             differs: Some("a picture of the window; the command line draws what it shows, without panels".to_owned()),
         })
     }
@@ -97,6 +98,7 @@ impl Recipes<'_> {
         Some(Recipe {
             spec,
             scene: Arc::clone(&picture.scene),
+            command: None,
             differs: differs.map(str::to_owned),
         })
     }

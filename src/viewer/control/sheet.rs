@@ -80,7 +80,7 @@ impl Recipes<'_> {
     }
 
     /// The current scene, once it was read.
-    fn known_scene(&self) -> Option<KnownScene> {
+    pub(in crate::viewer) fn known_scene(&self) -> Option<KnownScene> {
         let both = &self.both;
         let entry = both.scene_list.current().filter(|entry| !entry.is_reading())?;
         Some(KnownScene {

@@ -40,6 +40,7 @@ impl Viewer {
             && self.profiling.truth.is_current()
             && self.both().is_measured()
             && self.sheet.is_current()
+            && self.board.measuring.is_current()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
@@ -92,6 +93,7 @@ impl Viewer {
             Finished::Explained(asked, explanation) => self.inspector.explanation.finished(asked, *explanation),
             Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
             Finished::Profiled(asked, found) => self.profiling.truth.finished(asked, found),
+            Finished::Board(news) => self.board.measuring.take_in(news),
             Finished::Thumbnail(thumbnail) => self.scene_list.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.export.saver.take_in(saved, &mut self.chrome.messages),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
@@ -110,6 +112,7 @@ impl Viewer {
         self.drawings().update_comparison();
         self.hand().want_answers();
         self.hand().want_truth_along_line();
+        self.want_board();
         let legends = self.pixels().legends();
         self.frames.legends.place(legends);
         let drawn = self.window().drawn_state();

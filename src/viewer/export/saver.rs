@@ -16,7 +16,7 @@ use crate::scene::Scene;
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::export::naming::NameTemplate;
 use crate::viewer::export::sheet::saving::SheetJob;
-use crate::viewer::export::spec::PictureSpec;
+use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
@@ -68,15 +68,21 @@ pub(in crate::viewer) struct Recipe {
     pub(in crate::viewer) scene: Arc<Scene>,
     /// How the picture differs from what `spec` alone makes.
     pub(in crate::viewer) differs: Option<String>,
+    /// The command that makes it, where that is not `render`.
+    pub(in crate::viewer) command: Option<RecipeOfCommand>,
 }
 
 impl Recipe {
     /// The record for the file `output`.
     pub(in crate::viewer) fn record(&self, output: &Path) -> Record {
-        Record {
+        let mut record = Record {
             differs: self.differs.clone(),
             ..self.spec.record(&self.scene, output)
+        };
+        if let Some(command) = &self.command {
+            command.put_into(&mut record, &self.spec, output);
         }
+        record
     }
 }
 

@@ -114,6 +114,29 @@ impl PictureSpec {
     }
 }
 
+/// A command that makes a picture of a scene, but for its files.
+#[derive(Clone, Debug)]
+pub(in crate::viewer) struct RecipeOfCommand {
+    pub(in crate::viewer) verb: &'static str,
+    /// What follows scene and output.
+    pub(in crate::viewer) options: Vec<String>,
+}
+
+impl RecipeOfCommand {
+    /// Puts its command line into the record of the picture that is written to `output`.
+    pub(in crate::viewer) fn put_into(&self, record: &mut Record, spec: &PictureSpec, output: &Path) {
+        let mut words = vec![
+            self.verb.to_owned(),
+            as_path(&spec.scene.address()),
+            "-o".to_owned(),
+            as_path(&output.display().to_string()),
+        ];
+        words.extend(self.options.iter().cloned());
+        record.command_line = shell_line(&words);
+        record.arguments = words;
+    }
+}
+
 /// The record of a picture of `size` pixels of which only the arguments are known.
 pub fn plain_record(arguments: Vec<String>, size: [u32; 2]) -> Record {
     Record {

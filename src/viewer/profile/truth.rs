@@ -2,6 +2,7 @@
 
 use std::io;
 
+use crate::color::ResolveSpace;
 use crate::compare::{Line, Profile};
 use crate::raster::Framebuffer;
 use crate::render::{CancelToken, Subject, draw_regions};
@@ -18,6 +19,8 @@ pub(in crate::viewer) type TruthAlong = Latest<LineOfPicture, Option<Profile>>;
 pub(in crate::viewer) struct LineOfPicture {
     pub(in crate::viewer) picture: Picture,
     pub(in crate::viewer) line: Line,
+    /// In which values the truth is averaged, where not in the picture's.
+    pub(in crate::viewer) space: Option<ResolveSpace>,
 }
 
 /// Starts the thread.
@@ -40,7 +43,7 @@ impl LineOfPicture {
         let subject = Subject {
             scene,
             view,
-            settings: &settings.truth(),
+            settings: &settings.truth_in(self.space),
         };
         let mut frame = Framebuffer::new(size[0], size[1]);
         draw_regions(&subject, &mut frame, &self.line.regions(*size), &CancelToken::default())?;

@@ -58,13 +58,24 @@ pub fn are_defaults(settings: &Settings) -> bool {
     sampling().all(|setting| setting.is_default(settings))
 }
 
-/// The changes that settings such as `sample-rate 16, dialect svg` ask for; `None` where one of them is none.
-pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>> {
-    let one = |part: &str| {
-        let (name, value) = part.trim().split_once(char::is_whitespace)?;
-        find(name)?.to(value).ok()
+/// The changes that settings such as `sample-rate 16, dialect svg` ask for.
+///
+/// # Errors
+/// One line for the first that is none.
+pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, String> {
+    let one = |part: &str| match part.trim().split_once(|c: char| c.is_whitespace() || c == '=') {
+        Some((name, value)) => SettingChange::of(name, value).map_err(|problem| format!("{name}: {problem}")),
+        None => Err(format!(
+            "\"{}\" is no setting with its value, such as sample-rate 16",
+            part.trim()
+        )),
     };
     text.split(',').map(one).collect()
+}
+
+/// The same; `None` where one of them is none.
+pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>> {
+    changes(text).ok()
 }
 
 /// Whether a text is meant to be settings: it starts with an option's name and a blank.

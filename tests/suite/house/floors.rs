@@ -31,6 +31,7 @@ const HOUSES: &[House] = &[
             "inspector",
             "profile",
             "export",
+            "board",
             "lesson",
             "command",
             "state",

@@ -1,11 +1,14 @@
 //! Commands under "A against B".
 
+use crate::figure::TableFormat;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::other::Arrangement;
+use crate::viewer::board::entry::BoardSort;
 use crate::viewer::chrome::Dialog;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
 use crate::viewer::command::parts::AbCommand;
+use crate::viewer::command::parts::BoardCommand;
 use crate::viewer::command::parts::WindowCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
@@ -142,4 +145,89 @@ pub(super) static COMPARE: &[CommandSpec] = &[
     )
     .more("None closes the comparison")
     .argument(arguments::AGAINST),
+    spec(
+        "truth-space",
+        "Truth averaged in",
+        "Sets in which values the samples of the truth are averaged: in those of A, as stored, or as light",
+        Group::Compare,
+    )
+    .more("It costs another drawing of the truth, wherever that is shown or measured against")
+    .argument(arguments::TRUTH_SPACE),
+    spec(
+        "board",
+        "Board",
+        "Shows up to nine settings side by side: the same region of each beside the truth, sorted by what was measured",
+        Group::Compare,
+    )
+    .more("Each costs some drawings of the frame for its time, and the truth one of the region with 256 samples, beside the picture")
+    .keys(&[Chord::new(Key::Char('b'), Modifiers::SHIFT)])
+    .run(&Command::Board(BoardCommand::Show(Toggle::Flip)))
+    .argument(arguments::BOARD),
+    spec(
+        "board-add",
+        "Add to the board",
+        "Puts the settings of A on the board, or those with some changes",
+        Group::Compare,
+    )
+    .more("The board holds nine; what is measured of the others stays")
+    .run(&Command::Board(BoardCommand::AddA))
+    .argument(arguments::BOARD_ADD),
+    spec(
+        "board-vary",
+        "Vary on the board",
+        "Fills the board with one entry for each value of a setting, all else as A",
+        Group::Compare,
+    )
+    .more("It takes the place of what is there, and the first nine values of more")
+    .argument(arguments::BOARD_VARY),
+    spec(
+        "board-remove",
+        "Remove from the board",
+        "Removes a tile from the board",
+        Group::Compare,
+    )
+    .argument(arguments::BOARD_REMOVE),
+    spec("board-clear", "Clear the board", "Removes all tiles from the board", Group::Compare)
+        .more("The picture and its settings stay")
+        .run(&Command::Board(BoardCommand::Clear)),
+    spec(
+        "board-sort",
+        "Sort the board",
+        "Sorts the tiles of the board by their distance from the truth, or by their time",
+        Group::Compare,
+    )
+    .more("RMSE counts levels, FLIP what people see; the least comes first, and nothing is measured again")
+    .run(&Command::Board(BoardCommand::Sort(BoardSort::Rmse)))
+    .argument(arguments::BOARD_SORT),
+    spec(
+        "board-a",
+        "Take settings from the board",
+        "Gives A the settings of a tile",
+        Group::Compare,
+    )
+    .more("It costs a redraw, and where rules, filter or resolve space change also another truth")
+    .argument(arguments::BOARD_A),
+    spec(
+        "board-region",
+        "Region of the board",
+        "Sets how many pixels across the board shows and compares: 16 to 256",
+        Group::Compare,
+    )
+    .more("Larger ones say more of the whole picture, and are magnified less")
+    .argument(arguments::BOARD_REGION),
+    spec(
+        "board-copy",
+        "Copy the board",
+        "Copies the table of the board as Markdown, or as CSV for spreadsheets",
+        Group::Compare,
+    )
+    .run(&Command::Board(BoardCommand::Copy(TableFormat::Markdown)))
+    .argument(arguments::BOARD_COPY),
+    spec(
+        "save-board",
+        "Save the board",
+        "Saves the truth and all tiles of the board as one PNG, with their numbers",
+        Group::Compare,
+    )
+    .run(&Command::Board(BoardCommand::Save)),
 ];

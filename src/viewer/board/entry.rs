@@ -1,0 +1,273 @@
+//! What stands on a board: whole settings, the order that they are shown in, and in words what tells them apart.
+
+use std::cmp::Ordering;
+
+use crate::render::RenderSettings;
+use crate::scene::DialectChoice;
+use crate::viewer::board::measure::BoardNumbers;
+use crate::viewer::export::sheet::axes::Axis;
+use crate::viewer::settings::picture::{PictureSetting, SettingChange};
+use crate::viewer::settings::{Settings, picture};
+
+/// What stands for settings that change nothing of A.
+pub const AS_A: &str = "A";
+
+/// Most entries of a board.
+pub const MAX_ENTRIES: usize = 9;
+
+/// Everything about a picture that is neither scene nor view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoardEntry {
+    /// How it is drawn.
+    pub render: RenderSettings,
+    /// How its document is read.
+    pub dialect: DialectChoice,
+}
+
+/// What the entries of a board are sorted by; the least comes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BoardSort {
+    /// The root mean square error against the truth.
+    #[default]
+    Rmse,
+    /// What people see of the difference from the truth.
+    Flip,
+    /// The time of a frame.
+    Time,
+}
+
+impl BoardSort {
+    /// The names, as people are told them.
+    pub(in crate::viewer) const FORM: &str = "rmse|flip|time";
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::Rmse, Self::Flip, Self::Time];
+
+    /// The name in scripts and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rmse => "rmse",
+            Self::Flip => "flip",
+            Self::Time => "time",
+        }
+    }
+
+    /// Which of two comes first; what is not measured yet comes last.
+    pub fn order(self, a: Option<&BoardNumbers>, b: Option<&BoardNumbers>) -> Ordering {
+        let key = |numbers: &BoardNumbers| match self {
+            Self::Rmse => numbers.rmse,
+            Self::Flip => numbers.flip,
+            Self::Time => numbers.time.as_secs_f64(),
+        };
+        match (a, b) {
+            (Some(a), Some(b)) => key(a).total_cmp(&key(b)),
+            (a, b) => a.is_none().cmp(&b.is_none()),
+        }
+    }
+}
+
+impl BoardEntry {
+    /// The settings of this moment.
+    pub fn of(settings: &Settings) -> Self {
+        Self {
+            render: settings.render,
+            dialect: settings.dialect,
+        }
+    }
+
+    /// The same as the settings that menus change; those that no picture shows have their defaults.
+    fn settings(self) -> Settings {
+        Settings {
+            render: self.render,
+            dialect: self.dialect,
+            ..Settings::default()
+        }
+    }
+
+    /// The same with changes such as `sample-rate 16, pattern sobol`; [`AS_A`] changes nothing.
+    ///
+    /// # Errors
+    /// One line for the first that is none, and for a rate that the pattern does not take.
+    pub fn with(self, text: &str) -> Result<Self, String> {
+        if text.trim() == AS_A {
+            return Ok(self);
+        }
+        match self.changed(&picture::changes(text)?) {
+            (_, Some(remark)) => Err(format!("{}: {remark}", text.trim())),
+            (entry, None) => Ok(entry),
+        }
+    }
+
+    /// The same with these changes, and in one line what else had to change.
+    pub(in crate::viewer) fn changed(self, changes: &[SettingChange]) -> (Self, Option<String>) {
+        let mut settings = self.settings();
+        let apply = |settings: &mut Settings| changes.iter().filter_map(|change| change.apply(settings)).last();
+        // Whether a pattern takes a rate is seen once both are there, whichever was named first.
+        apply(&mut settings);
+        let remark = apply(&mut settings);
+        (Self::of(&settings), remark)
+    }
+
+    /// An entry for each value of an axis, all else as in this one; of values that are drawn alike the first.
+    ///
+    /// # Errors
+    /// One line for the first value that is none.
+    pub fn vary(self, axis: &Axis) -> Result<Vec<Self>, String> {
+        let mut entries: Vec<Self> = Vec::new();
+        for value in &axis.values {
+            let mut settings = self.settings();
+            // A rate that the pattern does not take is drawn as the nearest one.
+            SettingChange::of(&axis.name, value)?.apply(&mut settings);
+            let entry = Self::of(&settings);
+            if !entries.iter().any(|known| known.is_like(entry)) {
+                entries.push(entry);
+            }
+        }
+        Ok(entries)
+    }
+
+    /// Names and values of the settings in which it differs from `other`, as options have them.
+    pub fn changes(self, other: Self) -> Vec<(&'static str, String)> {
+        let (own, other) = (self.settings(), other.settings());
+        let changed = picture::all().filter(|setting| setting.value(&own) != setting.value(&other));
+        changed.map(|setting| (setting.option, setting.value(&own))).collect()
+    }
+
+    /// Whether every setting has one value in both; the outline follows the view.
+    pub fn is_like(self, other: Self) -> bool {
+        self.changes(other).is_empty()
+    }
+
+    /// The value of a setting.
+    pub fn value(self, setting: &PictureSetting) -> String {
+        setting.value(&self.settings())
+    }
+}
+
+/// The settings that are not the same in all entries; of a single one those that are not at their defaults.
+pub(in crate::viewer) fn differing(entries: &[BoardEntry]) -> Vec<&'static PictureSetting> {
+    let Some((first, rest)) = entries.split_first() else {
+        return Vec::new();
+    };
+    let first = first.settings();
+    let rest: Vec<Settings> = rest.iter().map(|entry| entry.settings()).collect();
+    let differs = |setting: &&PictureSetting| match rest.as_slice() {
+        [] => !setting.is_default(&first),
+        rest => rest.iter().any(|other| setting.value(other) != setting.value(&first)),
+    };
+    picture::all().filter(differs).collect()
+}
+
+/// What tells each entry from the others, such as `pattern sobol, sample rate 16`.
+pub(in crate::viewer) fn captions(entries: &[BoardEntry]) -> Vec<String> {
+    let told = differing(entries);
+    let caption = |entry: &BoardEntry| {
+        let settings = entry.settings();
+        let words: Vec<String> = told.iter().map(|setting| setting.words(&settings)).collect();
+        if words.is_empty() {
+            "first settings".to_owned()
+        } else {
+            words.join(", ")
+        }
+    };
+    entries.iter().map(caption).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    fn entry(changes: &[(&str, &str)]) -> BoardEntry {
+        let mut settings = Settings::default();
+        for (option, value) in changes {
+            SettingChange::of(option, value).expect(option).apply(&mut settings);
+        }
+        BoardEntry::of(&settings)
+    }
+
+    #[test]
+    fn captions_tell_what_differs_and_no_more() {
+        let entries = [
+            entry(&[("sample-rate", "16")]),
+            entry(&[("sample-rate", "16"), ("pattern", "sobol")]),
+            entry(&[("sample-rate", "16"), ("pattern", "r2"), ("resolve", "linear")]),
+        ];
+        assert_eq!(
+            captions(&entries),
+            [
+                "pattern grid, resolve stored",
+                "pattern sobol, resolve stored",
+                "pattern r2, resolve linear"
+            ],
+            "no rate, which all share"
+        );
+        assert_eq!(captions(&entries[..1]), ["sample rate 16"], "one alone says what it is");
+        assert_eq!(captions(&[entry(&[])]), ["first settings"], "of which nothing was set");
+        assert!(captions(&[]).is_empty(), "nothing of nothing");
+    }
+
+    #[test]
+    fn entries_are_told_by_their_changes() {
+        let own = entry(&[("sample-rate", "16")]);
+        assert_eq!(own.with("A"), Ok(own), "nothing");
+        let other = entry(&[("sample-rate", "16"), ("pattern", "sobol")]);
+        assert_eq!(own.with(" pattern sobol "), Ok(other), "one");
+        for wrong in [
+            "",
+            "pattern",
+            "pattern poisson",
+            "colour red",
+            "pattern r2,",
+            "sample-rate 5",
+        ] {
+            let problem = own.with(wrong).expect_err(wrong);
+            assert!(!problem.contains('\n') && !problem.is_empty(), "{wrong}: {problem}");
+        }
+        assert!(
+            own.with("sample-rate 5, pattern r2").is_ok(),
+            "the pattern takes any rate"
+        );
+        let axis = Axis::of("sample-rate", "1,4,5,16").expect("an axis");
+        let rates = own.vary(&axis).expect("values");
+        assert_eq!(rates.len(), 3, "five samples of a grid are four");
+        assert_eq!(rates[2], own, "the last is A's");
+    }
+
+    #[test]
+    fn entries_are_alike_whatever_the_view_outlines() {
+        let mut other = entry(&[("pattern", "r2")]);
+        assert_eq!(
+            other.changes(entry(&[])),
+            [("pattern", "r2".to_owned())],
+            "one setting differs"
+        );
+        other = entry(&[]);
+        other.render.outline = false;
+        assert!(other.is_like(entry(&[])), "the outline is the view's");
+    }
+
+    #[test]
+    fn boards_are_sorted_with_the_best_first_and_the_unknown_last() {
+        let numbers = |rmse, flip, time| BoardNumbers {
+            rmse,
+            flip,
+            time: Duration::from_millis(time),
+        };
+        let all = [
+            Some(numbers(3.0, 0.1, 2)),
+            None,
+            Some(numbers(1.0, 0.3, 3)),
+            Some(numbers(2.0, 0.2, 1)),
+        ];
+        for (sort, expected) in [
+            (BoardSort::Rmse, [2, 3, 0, 1]),
+            (BoardSort::Flip, [0, 3, 2, 1]),
+            (BoardSort::Time, [3, 0, 2, 1]),
+        ] {
+            let mut order = [0, 1, 2, 3];
+            order.sort_by(|a: &usize, b| sort.order(all[*a].as_ref(), all[*b].as_ref()));
+            assert_eq!(order, expected, "{sort:?}");
+        }
+    }
+}

@@ -20,8 +20,13 @@ use crate::scene::{FileDigest, FolderResources};
 
 /// What texts of ours carry in their head, as a comment or as HTML's generator.
 pub(super) const MARK: &str = "made by rasterscope";
-/// What the head of a table of ours holds: the columns of a sweep, of a frame log, and of a profile.
-const TABLES: [&str; 3] = ["median_ms,min_ms,", "at,shows,behind,draw,", "distance,x,y,red,green,"];
+/// What the head of a table of ours holds: the columns of a sweep (also as Markdown), of a frame log, and of a profile.
+const TABLES: [&str; 4] = [
+    "median_ms,min_ms,",
+    "median_ms | min_ms |",
+    "at,shows,behind,draw,",
+    "distance,x,y,red,green,",
+];
 /// So much of a file is searched for them, in bytes.
 const HEAD: u64 = 1024;
 /// Names that are tried for a file that is not whole yet.

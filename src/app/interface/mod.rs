@@ -6,6 +6,8 @@
 //! it would reach into the canvas of the default view; the viewer is told what area is free, and brings a canvas that no
 //! hand has moved there.
 
+mod board;
+mod board_tiles;
 mod chooser;
 mod compare;
 mod compare_letters;
@@ -56,6 +58,7 @@ use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui
 use glam::DVec2;
 
 use crate::viewer::{Chrome, Command, KeyPress, PixelRect, Theme, ViewNumbers, Viewer};
+use board::BoardCard;
 use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::ExplanationPanel;
@@ -93,6 +96,7 @@ pub(super) struct Interface {
     messages: Messages,
     close_of_inset: CloseOfInset,
     profile: ProfileCard,
+    board: BoardCard,
     /// How wide panels are.
     pub(super) widths: PanelWidths,
     /// What the side panel remembers.
@@ -145,6 +149,7 @@ impl Interface {
             messages: Messages::default(),
             close_of_inset: CloseOfInset::default(),
             profile: ProfileCard::default(),
+            board: BoardCard::default(),
             widths: PanelWidths::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
@@ -337,6 +342,8 @@ impl Interface {
             let profile = self.profile.show(ui, viewer, free, &mut asked.commands);
             cards.extend(profile.taken);
             profile_line::show(ui, viewer, free, profile.pixel);
+            let board = self.board.show(ui, viewer, (free, self.timed), &mut asked.commands);
+            cards.extend(board);
         }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);

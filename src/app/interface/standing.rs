@@ -2,8 +2,8 @@
 
 use crate::compare::Gain;
 use crate::viewer::{
-    AbCommand, Arrangement, Command, CommandSpec, ExportCommand, InspectorCommand, LessonCommand, Other, SceneCommand,
-    SceneEntry, ViewCommand, Viewer, WindowCommand, picture,
+    AbCommand, Arrangement, BoardCommand, Command, CommandSpec, ExportCommand, InspectorCommand, LessonCommand, Other,
+    SceneCommand, SceneEntry, ViewCommand, Viewer, WindowCommand, picture,
 };
 
 /// Why commands about lessons would do nothing.
@@ -49,6 +49,7 @@ fn is_on(viewer: &Viewer, command: &Command) -> bool {
         Command::Inspector(InspectorCommand::Show(_)) => viewer.inspector().magnifier().open,
         Command::Inspector(InspectorCommand::Explanation(_)) => viewer.pixels().has_explanation_open(),
         Command::Profile(_) => viewer.profile().is_open(),
+        Command::Board(BoardCommand::Show(_)) => viewer.board().is_open(),
         Command::Scenes(SceneCommand::FollowFiles(_)) => viewer.scene_list().follows_files(),
         Command::Window(command) => match command {
             WindowCommand::OverlayText(_) => chrome.overlay_text(),

@@ -2,6 +2,8 @@
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
 #[cfg(test)]
+mod boards;
+#[cfg(test)]
 mod by_mouse;
 #[cfg(test)]
 mod choosing;

@@ -9,7 +9,7 @@ use crate::render::milliseconds;
 use crate::scene::Scene;
 use crate::viewer::board::entry::{AS_A, BoardEntry, BoardSort, captions, differing};
 use crate::viewer::board::measure::{BoardNumbers, BoardPlace, BoardTile};
-use crate::viewer::export::sheet::captions::title;
+use crate::viewer::export::sheet::captions::{shared_words, title};
 use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
 
 /// What the columns after those of the settings are called.
@@ -83,12 +83,30 @@ impl<'a> BoardReport<'a> {
         format!("{}\n{}\n", self.table().markdown(), self.caption())
     }
 
+    /// What all entries have that is not at its default, as a sentence.
+    fn shared(&self) -> String {
+        let entries = self.entries();
+        let Some(first) = entries.first() else {
+            return String::new();
+        };
+        let told = differing(&entries);
+        let words = shared_words(&self.place.spec(*first), |name| {
+            told.iter().any(|setting| setting.option == name)
+        });
+        if words.is_empty() {
+            words
+        } else {
+            format!(". In all: {words}")
+        }
+    }
+
     /// What was compared with what, and how the time was taken.
     pub fn caption(&self) -> String {
         let place = self.place;
         let [width, height] = place.truth.size;
+        let shared = self.shared();
         format!(
-            "{}: {} of {width} \u{d7} {height}. RMSE in levels and FLIP against the truth, {}. Time: of the whole frame, the \
+            "{}: {} of {width} \u{d7} {height}{shared}. RMSE in levels and FLIP against the truth, {}. Time: of the whole frame, the \
              median of several.",
             title(&place.truth.scene),
             place.region_words(),
@@ -108,7 +126,7 @@ impl<'a> BoardReport<'a> {
         let told = self.rows.iter().zip(words).map(|((_, tile), words)| {
             let BoardNumbers { rmse, flip, time } = tile.numbers;
             let time = milliseconds(time);
-            format!("{words}\nRMSE {rmse:.2}, FLIP {flip:.4}\n{time:.2} ms")
+            format!("{words}\nRMSE {rmse:.2}\nFLIP {flip:.4}, {time:.2} ms")
         });
         let first = format!("the truth\n{}", self.place.truth_words());
         let headers: Vec<String> = std::iter::once(first).chain(told).collect();

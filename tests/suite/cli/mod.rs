@@ -1,6 +1,7 @@
 //! The binary on the command line.
 
 mod arguments;
+mod boards;
 mod diff;
 mod disk;
 mod figures;

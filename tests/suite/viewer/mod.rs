@@ -1,5 +1,6 @@
 //! The program without a window: commands, sessions, screenshots, sheets.
 
+mod boards;
 mod comparison;
 mod dialects;
 mod follow;

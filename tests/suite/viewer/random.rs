@@ -1,7 +1,7 @@
 //! Any commands in any order: no panic, no hang, and the frame shows the state.
 
+use rasterscope::viewer::{BoardCommand, ViewCommand, WindowCommand};
 use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, ProfileCommand, SceneCommand};
-use rasterscope::viewer::{ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use arbtest::arbitrary::{Result, Unstructured};
@@ -46,7 +46,7 @@ fn whole(u: &mut Unstructured<'_>) -> Result<i64> {
 /// Commands that hands make, and some with numbers that no hand makes.
 fn command(u: &mut Unstructured<'_>) -> Result<Command> {
     let buttons = [PointerButton::Primary, PointerButton::Secondary];
-    Ok(match u.int_in_range(0..=19)? {
+    Ok(match u.int_in_range(0..=20)? {
         0 => Command::Pointer(PointerCommand::Moved { at: point(u)? }),
         1 => Command::Pointer(PointerCommand::Pressed(*u.choose(&buttons)?)),
         2 => Command::Pointer(PointerCommand::Released(*u.choose(&buttons)?)),
@@ -84,11 +84,21 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
             [whole(u)?, whole(u)?],
             [whole(u)?, whole(u)?],
         ])),
+        19 => Command::Board(match u.int_in_range(0..=3)? {
+            0 => BoardCommand::AddA,
+            1 => BoardCommand::Remove(u.arbitrary()?),
+            2 => BoardCommand::MakeA(u.int_in_range(0..=9)?),
+            _ => BoardCommand::SetSide(u.arbitrary()?),
+        }),
         _ => {
             let spec = u.choose(commands::all())?;
             let command = spec.command_of_key(u.choose_index(spec.keys.len().max(1))?);
             // Whoever saves pictures in a loop fills the disk; screenshots have tests of their own.
-            let harmless = command.filter(|command| *command != Command::Export(ExportCommand::Screenshot));
+            let saves = [
+                Command::Export(ExportCommand::Screenshot),
+                Command::Board(BoardCommand::Save),
+            ];
+            let harmless = command.filter(|command| !saves.contains(command));
             harmless.unwrap_or(step("sample-rate", -1.0))
         }
     })
@@ -117,6 +127,7 @@ fn random_commands_never_break_the_viewer() {
             );
             let _ = viewer.pixels().pixel_labels([1.0, 1.0]);
             let _ = (viewer.profile().places(), viewer.profile().curves());
+            let _ = (viewer.board().words(), viewer.board().tiles());
             match u.int_in_range(0..=3)? {
                 0 => viewer.finish(),
                 1 => _ = viewer.poll(),

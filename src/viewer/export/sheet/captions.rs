@@ -74,7 +74,7 @@ pub(in crate::viewer) fn title(scene: &SceneSource) -> String {
 }
 
 /// The settings in words that differ from their defaults, but for those that are `told` elsewhere.
-fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
+pub(in crate::viewer) fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
     let settings = spec.settings().into_iter().filter(|(name, _)| !told(name));
     let words = settings.map(|(name, value)| format!("{} {value}", name.replace('-', " ")));
     words.collect::<Vec<_>>().join(", ")

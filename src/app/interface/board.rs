@@ -1,0 +1,235 @@
+//! The card of the board: the truth and up to nine settings of one region, each pixel a square, with what was measured.
+//!
+//! ```text
+//!    Board  64 x 64 pixels from 600, 368 ...                      x
+//!    [Add A] [Vary] Sort [RMSE|FLIP|time] Truth [as A|...] ...
+//!    +-----+  +-----+  +-----+
+//!    |truth|  |     |  |     |     tiles; a click on one gives A its settings
+//!    +-----+  +-----+  +-----+
+//!    truth    1 grid x  2 r2 x
+//!             RMSE 4.0  RMSE 8.9
+//! ```
+
+use egui::{
+    Align, Align2, Area, Button, ComboBox, Frame, Id, Layout, Order, Rect, RichText, ScrollArea, Ui, Vec2, vec2,
+};
+
+use super::board_tiles::{BoardTiles, Grid, caption_lines, list};
+use super::controls::{command_button, tip};
+use super::look::CONTROL;
+use crate::color::ResolveSpace;
+use crate::figure::TableFormat;
+use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, Toggle, Viewer, picture};
+
+/// Free space around the card, in points.
+const MARGIN: f32 = 10.0;
+/// What the card's frame takes of its width and height, in points.
+const FRAME: f32 = 14.0;
+/// Width of the controls in one or two rows, in points.
+const CONTROLS: f32 = 660.0;
+
+/// What the card remembers.
+#[derive(Debug, Default)]
+pub(super) struct BoardCard {
+    tiles: BoardTiles,
+    /// What stood above the tiles in the last pass, in points.
+    above: f32,
+}
+
+impl BoardCard {
+    /// Shows it in the lower right corner of what is `free`, as large as it needs and has room for. Returns where it is. Times
+    /// are shown only where pictures may depend on them: `timed`.
+    pub(super) fn show(
+        &mut self,
+        ui: &Ui,
+        viewer: &Viewer,
+        (free, timed): (Rect, bool),
+        commands: &mut Vec<Command>,
+    ) -> Option<Rect> {
+        let board = viewer.board();
+        if !board.is_open() {
+            return None;
+        }
+        let room = free.shrink(MARGIN).size() - Vec2::splat(FRAME);
+        let tiles = board.tiles();
+        let for_tiles = vec2(room.x, room.y - self.above.max(60.0));
+        let captions = |width: f32| caption_lines(ui, &tiles, width);
+        let grid = Grid::of(
+            (tiles.len() + 1, board.side()),
+            ui.pixels_per_point(),
+            for_tiles,
+            captions,
+        );
+        let width = grid.map_or(0.0, Grid::width).max(CONTROLS).min(room.x);
+        let area = Area::new(Id::unique("board"))
+            .order(Order::Middle)
+            .fixed_pos(free.shrink(MARGIN).right_bottom())
+            .pivot(Align2::RIGHT_BOTTOM)
+            .constrain_to(free)
+            .fade_in(false)
+            .show(ui.ctx(), |ui| {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_width(width);
+                    let top = ui.cursor().top();
+                    head(ui, viewer, commands);
+                    controls(ui, viewer, commands);
+                    self.above = ui.cursor().top() - top;
+                    if tiles.is_empty() {
+                        let hint = "Nothing to compare yet: Add A puts the settings of the picture here, Vary one entry for each value of \
+                                    a setting.";
+                        ui.label(RichText::new(hint).small().weak());
+                        return;
+                    }
+                    ScrollArea::vertical()
+                        .id_salt("board tiles")
+                        .max_height((room.y - self.above).max(60.0))
+                        .show(ui, |ui| {
+                            super::look::bars_beside(ui);
+                            match grid {
+                                Some(grid) => self.tiles.show(ui, viewer, (&tiles, grid, timed), commands),
+                                None => list(ui, &tiles, timed, commands),
+                            }
+                        });
+                });
+            });
+        Some(area.response.rect)
+    }
+}
+
+/// The title, what is compared with what, and what closes the card.
+fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Board").strong()).on_hover_text(tip("board"));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let close = ui.add(Button::new("\u{d7}").min_size(CONTROL));
+            let close = close
+                .on_hover_text("Closes the board and gives up what is being measured. Its entries come back with it.");
+            if close.accessible_name("Close the board").clicked() {
+                commands.push(Command::Board(BoardCommand::Show(Toggle::Off)));
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let label = egui::Label::new(RichText::new(words(viewer)).small().weak()).truncate();
+                ui.add(label).on_hover_text(format!("{}. {MEASURED}", words(viewer)));
+            });
+        });
+    });
+    if let Some(problem) = viewer.board().problem() {
+        ui.label(RichText::new(problem).small().color(ui.visuals().warn_fg_color));
+    }
+}
+
+/// How numbers are made.
+const MEASURED: &str = "RMSE in levels of 255 and FLIP are those of this region alone. The time is that of the whole frame, the median of \
+                        up to five drawings, fewer where one takes long";
+
+/// The region and the truth in words.
+fn words(viewer: &Viewer) -> String {
+    let board = viewer.board();
+    let Some([region, truth]) = board.words() else {
+        return "no picture to compare".to_owned();
+    };
+    let why = board.truth_space().map_or(", as A", |_| "");
+    let more = if board.is_measuring() {
+        "; measuring \u{2026}"
+    } else {
+        ""
+    };
+    format!("{region}; truth: {truth}{why}{more}")
+}
+
+/// What changes the board.
+fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let board = viewer.board();
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
+        if command_button(ui, "board-add", "Add A").clicked() {
+            commands.push(Command::Board(BoardCommand::AddA));
+        }
+        vary(ui, commands);
+        together(ui, 186.0, "sort", |ui| {
+            let sorts = BoardSort::ALL.map(|sort| (sort, sort_name(sort)));
+            let sort = few(ui, ("Sort by", "board-sort"), board.sort(), &sorts);
+            commands.extend(sort.map(BoardCommand::Sort).map(Command::Board));
+        });
+        together(ui, 178.0, "truth", |ui| {
+            let spaces = [
+                (None, "as A"),
+                (Some(ResolveSpace::Stored), ResolveSpace::Stored.name()),
+                (Some(ResolveSpace::Linear), ResolveSpace::Linear.name()),
+            ];
+            let space = few(ui, ("Truth averaged", "truth-space"), board.truth_space(), &spaces);
+            commands.extend(space.map(AbCommand::SetTruthSpace).map(Command::Ab));
+        });
+        together(ui, 104.0, "copy", |ui| {
+            for (format, text, name) in [
+                (TableFormat::Markdown, "MD", "Markdown"),
+                (TableFormat::Csv, "CSV", "CSV"),
+            ] {
+                let button = ui.add(Button::new(text).min_size(CONTROL));
+                let name = format!("Copy the board as {name}");
+                if button.on_hover_text(tip("board-copy")).accessible_name(name).clicked() {
+                    commands.push(Command::Board(BoardCommand::Copy(format)));
+                }
+            }
+        });
+        if command_button(ui, "save-board", "Save").clicked() {
+            commands.push(Command::Board(BoardCommand::Save));
+        }
+        if command_button(ui, "board-clear", "Clear").clicked() {
+            commands.push(Command::Board(BoardCommand::Clear));
+        }
+    });
+}
+
+/// A label and its buttons, which take about `width` points and stay in one row.
+fn together(ui: &mut Ui, width: f32, text: &str, contents: impl FnOnce(&mut Ui)) {
+    if ui.available_size_before_wrap().x < width {
+        ui.end_row();
+    }
+    ui.add_space(4.0);
+    ui.label(RichText::new(text).small().weak());
+    contents(ui);
+}
+
+fn sort_name(sort: BoardSort) -> &'static str {
+    match sort {
+        BoardSort::Rmse => "RMSE",
+        BoardSort::Flip => "FLIP",
+        BoardSort::Time => "time",
+    }
+}
+
+/// One of few values, side by side, as wide as their names; what was chosen, if it was just now. `named` is what screen readers
+/// call it, and the command whose tool tip it has.
+fn few<T: Copy + PartialEq>(ui: &mut Ui, (name, id): (&str, &str), current: T, values: &[(T, &str)]) -> Option<T> {
+    let mut chosen = None;
+    for (value, text) in values {
+        let button = Button::selectable(*value == current, *text)
+            .frame_when_inactive(true)
+            .min_size(CONTROL);
+        let response = ui.add(button).on_hover_text(tip(id));
+        if response.accessible_name(format!("{name}: {text}")).clicked() && *value != current {
+            chosen = Some(*value);
+        }
+    }
+    chosen
+}
+
+/// A list of settings, of which one fills the board.
+fn vary(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ComboBox::from_id_salt("vary on the board")
+        .width(70.0)
+        .selected_text("Vary \u{2026}")
+        .height(320.0)
+        .show_ui(ui, |ui| {
+            for setting in picture::all() {
+                let label = setting.option.replace('-', " ");
+                if ui.selectable_label(false, label).clicked() {
+                    commands.push(Command::Board(BoardCommand::Vary(Axis::first(setting))));
+                }
+            }
+        })
+        .response
+        .on_hover_text(tip("board-vary"))
+        .accessible_name("Vary on the board");
+}

@@ -1,0 +1,94 @@
+//! The board under a hand: its tiles lie in the window, are pressed, sorted and removed, and the picture goes on being moved.
+
+use std::path::{Path, PathBuf};
+
+use glam::dvec2;
+
+use super::hands::{place_of, session};
+use super::small_windows::{click_on, says};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand};
+
+const CLOSE: &str = "Close the board";
+
+fn one_edge() -> Vec<PathBuf> {
+    vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/14_one_edge.svg")]
+}
+
+fn vary(session: &mut Session, name: &str, values: &str) {
+    let axis = Axis::of(name, values).expect("an axis");
+    session.command(Command::Board(BoardCommand::Vary(axis)));
+    session.settle();
+}
+
+fn rate(session: &Session) -> u32 {
+    session.viewer.settings().render.sample_rate.samples()
+}
+
+#[test]
+fn board_is_worked_by_hand() {
+    let mut session = session(one_edge(), [1280, 800]);
+    vary(&mut session, "sample-rate", "1,4,16");
+    assert!(says(&mut session, "the truth"), "beside the truth");
+    assert!(says(&mut session, "RMSE") && says(&mut session, "FLIP"), "in numbers");
+    assert!(
+        says(&mut session, "truth: 256 samples in stored values, as A"),
+        "which says what it is"
+    );
+    click_on(&mut session, "Make tile 1 A");
+    assert_eq!(rate(&session), 16, "the nearest to the truth");
+    click_on(&mut session, "Remove tile 3");
+    assert_eq!(session.viewer.board().tiles().len(), 2, "one is gone");
+    click_on(&mut session, "Sort by: FLIP");
+    assert_eq!(session.viewer.board().sort(), BoardSort::Flip, "sorted otherwise");
+    click_on(&mut session, "Truth averaged: linear");
+    assert!(
+        says(&mut session, "truth: 256 samples in linear light") && !says(&mut session, ", as A"),
+        "chosen"
+    );
+    let view = session.viewer.both().view_numbers();
+    let card = place_of(&mut session, CLOSE);
+    session.pointer(Some(card + dvec2(-200.0, 0.0)));
+    session.button(PointerButton::Primary, true);
+    session.pointer(Some(card + dvec2(-260.0, 30.0)));
+    session.button(PointerButton::Primary, false);
+    session.settle();
+    assert_eq!(
+        session.viewer.both().view_numbers(),
+        view,
+        "a drag on the card moves nothing"
+    );
+    click_on(&mut session, CLOSE);
+    assert!(!session.viewer.board().is_open(), "closed");
+}
+
+#[test]
+fn board_lies_in_every_window() {
+    for window in [[640, 480], [800, 600], [1280, 800], [1920, 1080]] {
+        for pinned in [false, true] {
+            let mut session = session(one_edge(), window);
+            if pinned {
+                session.command(Command::Inspector(InspectorCommand::Pin([200, 200])));
+            }
+            vary(&mut session, "seed", "0,1,2,3,4,5,6,7,8");
+            assert_eq!(session.viewer.board().tiles().len(), 9, "a full board");
+            for name in [CLOSE, "Sort by: time", "Clear the board", "Make tile 1 A"] {
+                let at = place_of(&mut session, name);
+                let inside = at.cmpge(dvec2(0.0, 0.0)).all() && at.x < window[0].into() && at.y < window[1].into();
+                assert!(inside, "{name} at {at} of {window:?}, pinned: {pinned}");
+            }
+        }
+    }
+}
+
+#[test]
+fn board_without_entries_says_what_to_do() {
+    let mut session = session(one_edge(), [800, 600]);
+    vary(&mut session, "sample-rate", "1,4");
+    click_on(&mut session, "Clear the board");
+    assert!(says(&mut session, "Nothing to compare yet"), "a hint");
+    click_on(&mut session, "Add to the board");
+    assert_eq!(session.viewer.board().tiles().len(), 1, "A");
+    assert!(says(&mut session, "RMSE"), "measured");
+}

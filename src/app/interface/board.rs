@@ -85,6 +85,8 @@ impl BoardCard {
                         .max_height((room.y - self.above).max(60.0))
                         .show(ui, |ui| {
                             super::look::bars_beside(ui);
+                            // For the frame around the tile that A is.
+                            ui.add_space(2.0);
                             match grid {
                                 Some(grid) => self.tiles.show(ui, viewer, (&tiles, grid, timed), commands),
                                 None => list(ui, &tiles, timed, commands),
@@ -146,12 +148,12 @@ fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             commands.push(Command::Board(BoardCommand::AddA));
         }
         vary(ui, commands);
-        together(ui, 186.0, "sort", |ui| {
+        together(ui, 166.0, "sort", |ui| {
             let sorts = BoardSort::ALL.map(|sort| (sort, sort_name(sort)));
             let sort = few(ui, ("Sort by", "board-sort"), board.sort(), &sorts);
             commands.extend(sort.map(BoardCommand::Sort).map(Command::Board));
         });
-        together(ui, 178.0, "truth", |ui| {
+        together(ui, 172.0, "truth", |ui| {
             let spaces = [
                 (None, "as A"),
                 (Some(ResolveSpace::Stored), ResolveSpace::Stored.name()),
@@ -160,7 +162,7 @@ fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             let space = few(ui, ("Truth averaged", "truth-space"), board.truth_space(), &spaces);
             commands.extend(space.map(AbCommand::SetTruthSpace).map(Command::Ab));
         });
-        together(ui, 104.0, "copy", |ui| {
+        together(ui, 94.0, "copy", |ui| {
             for (format, text, name) in [
                 (TableFormat::Markdown, "MD", "Markdown"),
                 (TableFormat::Csv, "CSV", "CSV"),
@@ -186,8 +188,13 @@ fn together(ui: &mut Ui, width: f32, text: &str, contents: impl FnOnce(&mut Ui))
     if ui.available_size_before_wrap().x < width {
         ui.end_row();
     }
-    ui.add_space(4.0);
-    ui.label(RichText::new(text).small().weak());
+    ui.add_space(2.0);
+    // As high as the buttons, so that they stand in its row from the first on.
+    let size = vec2(28.0, CONTROL.y);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.set_min_size(size);
+        ui.label(RichText::new(text).small().weak());
+    });
     contents(ui);
 }
 

@@ -14,7 +14,7 @@ use crate::render::milliseconds;
 use crate::viewer::{BoardCommand, BoardSort, Command, ShownTile, Viewer};
 
 /// Least width of a tile with its words, in points.
-const LEAST: f32 = 98.0;
+const LEAST: f32 = 96.0;
 /// Side below which tiles rather scroll than shrink, in points.
 const SMALL: f32 = 60.0;
 /// Largest side of a tile, in points.
@@ -301,7 +301,8 @@ pub(super) fn list(ui: &mut Ui, tiles: &[ShownTile<'_>], timed: bool, commands: 
     for (index, tile) in tiles.iter().enumerate() {
         let [rmse, flip, time] = numbers(tile, timed);
         ui.horizontal(|ui| {
-            let text = format!("{} {}: {rmse}, {flip}, {time}", index + 1, tile.caption);
+            let told: Vec<String> = [rmse, flip, time].into_iter().filter(|text| !text.is_empty()).collect();
+            let text = format!("{} {}: {}", index + 1, tile.caption, told.join(", "));
             let button = Button::selectable(tile.is_a, RichText::new(text).size(LETTERS)).truncate();
             let room = vec2(ui.available_width() - 22.0, LINE + 4.0);
             let response = ui.add_sized(room, button).on_hover_text(tip("board-a"));

@@ -1,10 +1,7 @@
-//! What stands on a board: whole settings, the order that they are shown in, and in words what tells them apart.
-
-use std::cmp::Ordering;
+//! What stands on a board: whole settings, and in words what tells them apart.
 
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
-use crate::viewer::board::measure::BoardNumbers;
 use crate::viewer::export::sheet::axes::Axis;
 use crate::viewer::settings::picture::{PictureSetting, SettingChange};
 use crate::viewer::settings::{Settings, picture};
@@ -22,47 +19,6 @@ pub struct BoardEntry {
     pub render: RenderSettings,
     /// How its document is read.
     pub dialect: DialectChoice,
-}
-
-/// What the entries of a board are sorted by; the least comes first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum BoardSort {
-    /// The root mean square error against the truth.
-    #[default]
-    Rmse,
-    /// What people see of the difference from the truth.
-    Flip,
-    /// The time of a frame.
-    Time,
-}
-
-impl BoardSort {
-    /// The names, as people are told them.
-    pub(in crate::viewer) const FORM: &str = "rmse|flip|time";
-    /// Every value, in the order of menus.
-    pub const ALL: [Self; 3] = [Self::Rmse, Self::Flip, Self::Time];
-
-    /// The name in scripts and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Rmse => "rmse",
-            Self::Flip => "flip",
-            Self::Time => "time",
-        }
-    }
-
-    /// Which of two comes first; what is not measured yet comes last.
-    pub fn order(self, a: Option<&BoardNumbers>, b: Option<&BoardNumbers>) -> Ordering {
-        let key = |numbers: &BoardNumbers| match self {
-            Self::Rmse => numbers.rmse,
-            Self::Flip => numbers.flip,
-            Self::Time => numbers.time.as_secs_f64(),
-        };
-        match (a, b) {
-            (Some(a), Some(b)) => key(a).total_cmp(&key(b)),
-            (a, b) => a.is_none().cmp(&b.is_none()),
-        }
-    }
 }
 
 impl BoardEntry {
@@ -174,8 +130,6 @@ pub(in crate::viewer) fn captions(entries: &[BoardEntry]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
 
     fn entry(changes: &[(&str, &str)]) -> BoardEntry {
@@ -245,29 +199,5 @@ mod tests {
         other = entry(&[]);
         other.render.outline = false;
         assert!(other.is_like(entry(&[])), "the outline is the view's");
-    }
-
-    #[test]
-    fn boards_are_sorted_with_the_best_first_and_the_unknown_last() {
-        let numbers = |rmse, flip, time| BoardNumbers {
-            rmse,
-            flip,
-            time: Duration::from_millis(time),
-        };
-        let all = [
-            Some(numbers(3.0, 0.1, 2)),
-            None,
-            Some(numbers(1.0, 0.3, 3)),
-            Some(numbers(2.0, 0.2, 1)),
-        ];
-        for (sort, expected) in [
-            (BoardSort::Rmse, [2, 3, 0, 1]),
-            (BoardSort::Flip, [0, 3, 2, 1]),
-            (BoardSort::Time, [3, 0, 2, 1]),
-        ] {
-            let mut order = [0, 1, 2, 3];
-            order.sort_by(|a: &usize, b| sort.order(all[*a].as_ref(), all[*b].as_ref()));
-            assert_eq!(order, expected, "{sort:?}");
-        }
     }
 }

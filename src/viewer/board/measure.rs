@@ -1,7 +1,5 @@
 //! One entry of a board in pixels and numbers: a region of its frame, beside the same region of the truth.
 
-use std::time::Duration;
-
 use crate::color::ResolveSpace;
 use crate::compare::Pair;
 use crate::raster::{Framebuffer, Region};
@@ -9,6 +7,7 @@ use crate::render::{CancelToken, RenderSettings, Repeats, Subject, draw_regions,
 use crate::scene::Scene;
 use crate::viewer::ab::sides::truth_words;
 use crate::viewer::board::entry::BoardEntry;
+use crate::viewer::board::numbers::BoardNumbers;
 use crate::viewer::export::spec::PictureSpec;
 
 /// What all entries of a board are drawn of, and the truth that they are compared with.
@@ -18,17 +17,6 @@ pub struct BoardPlace {
     pub truth: PictureSpec,
     /// The pixels of the frame that are shown and compared.
     pub region: Region,
-}
-
-/// How far an entry is from the truth, over the region, and what a frame of it costs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoardNumbers {
-    /// Root mean square error in levels of 255.
-    pub rmse: f64,
-    /// The mean FLIP error; 0 for equal pictures.
-    pub flip: f64,
-    /// Of drawing the whole frame: the median of several.
-    pub time: Duration,
 }
 
 /// What entries are measured by.

@@ -3,10 +3,12 @@
 pub(in crate::viewer) mod entry;
 pub(in crate::viewer) mod measure;
 pub(in crate::viewer) mod measuring;
+pub(in crate::viewer) mod numbers;
 pub(in crate::viewer) mod report;
 
-use crate::viewer::board::entry::{BoardEntry, BoardSort, MAX_ENTRIES};
+use crate::viewer::board::entry::{BoardEntry, MAX_ENTRIES};
 use crate::viewer::board::measuring::BoardMeasuring;
+use crate::viewer::board::numbers::BoardSort;
 
 /// Pixels along each side of the region: at least, at first, at most.
 pub(in crate::viewer) const SIDES: [u32; 3] = [16, 64, 256];

@@ -7,8 +7,9 @@ use crate::figure::{Ground, Record, SheetPlan, Table, magnified};
 use crate::raster::{Framebuffer, Region};
 use crate::render::milliseconds;
 use crate::scene::Scene;
-use crate::viewer::board::entry::{AS_A, BoardEntry, BoardSort, captions, differing};
-use crate::viewer::board::measure::{BoardNumbers, BoardPlace, BoardTile};
+use crate::viewer::board::entry::{AS_A, BoardEntry, captions, differing};
+use crate::viewer::board::measure::{BoardPlace, BoardTile};
+use crate::viewer::board::numbers::{BoardNumbers, BoardSort};
 use crate::viewer::export::sheet::captions::{shared_words, title};
 use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
 

@@ -12,7 +12,7 @@ use crate::compare::{Measure, ProfileChannel};
 use crate::figure::{Ground, TableFormat};
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::board::SIDES;
-use crate::viewer::board::entry::BoardSort;
+use crate::viewer::board::numbers::BoardSort;
 use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::command::Command;
 use crate::viewer::export::sheet::axes::Axis;

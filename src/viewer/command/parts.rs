@@ -9,7 +9,7 @@ use crate::compare::{Measure, ProfileChannel};
 use crate::figure::{PixelRect, TableFormat};
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
-use crate::viewer::board::entry::BoardSort;
+use crate::viewer::board::numbers::BoardSort;
 use crate::viewer::chrome::Dialog;
 use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::export::sheet::axes::Axis;

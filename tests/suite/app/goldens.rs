@@ -214,6 +214,22 @@ fn overlay_plots_an_edge() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
+/// Three patterns beside the truth: where the pin is, the nearest first, A outlined.
+#[test]
+fn overlay_board_compares_settings() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/01_zone_plate.svg");
+    let case = Case {
+        name: "overlay_board",
+        size: [900, 560],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "panel off; view 256,256,1; rate 16; truth-space linear; board-vary pattern grid,sobol,r2; wait 6000",
+    };
+    let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
+    assert_eq!(found.err(), None, "as it was looked at");
+}
+
 /// A script always makes the same picture: nothing in it depends on time.
 #[test]
 fn overlay_pictures_repeat() {

@@ -3,7 +3,7 @@
 use crate::figure::TableFormat;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::other::Arrangement;
-use crate::viewer::board::entry::BoardSort;
+use crate::viewer::board::numbers::BoardSort;
 use crate::viewer::chrome::Dialog;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;

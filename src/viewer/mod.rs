@@ -12,13 +12,14 @@
 //! control                               what commands and results do to several parts, through structs that borrow them
 //! state                                 the viewer: its parts side by side
 //! command                               what a user can do, as data
-//! lesson, export, profile, inspector,   the parts, each with its own state;
-//! ab, frames, library, view, chrome     none of them knows the viewer
+//! lesson, board, export, profile,       the parts, each with its own state;
+//! inspector, ab, frames, library,       none of them knows the viewer
+//! view, chrome
 //! settings, jobs, key_chords            what all of them use
 //! ```
 //!
 //! A part answers for itself: `viewer.scene_list().current()`, `viewer.ab().arrangement()`. What takes several parts is asked
-//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile),
+//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Boarded`] (several settings beside the truth),
 //! [`WindowContent`] and [`Recipes`].
 //!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.

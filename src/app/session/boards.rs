@@ -12,8 +12,8 @@ use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand};
 
 const CLOSE: &str = "Close the board";
 
-fn one_edge() -> Vec<PathBuf> {
-    vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/14_one_edge.svg")]
+fn rings() -> Vec<PathBuf> {
+    vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/01_zone_plate.svg")]
 }
 
 fn vary(session: &mut Session, name: &str, values: &str) {
@@ -28,7 +28,7 @@ fn rate(session: &Session) -> u32 {
 
 #[test]
 fn board_is_worked_by_hand() {
-    let mut session = session(one_edge(), [1280, 800]);
+    let mut session = session(rings(), [1280, 800]);
     vary(&mut session, "sample-rate", "1,4,16");
     assert!(says(&mut session, "the truth"), "beside the truth");
     assert!(says(&mut session, "RMSE") && says(&mut session, "FLIP"), "in numbers");
@@ -67,7 +67,7 @@ fn board_is_worked_by_hand() {
 fn board_lies_in_every_window() {
     for window in [[640, 480], [800, 600], [1280, 800], [1920, 1080]] {
         for pinned in [false, true] {
-            let mut session = session(one_edge(), window);
+            let mut session = session(rings(), window);
             if pinned {
                 session.command(Command::Inspector(InspectorCommand::Pin([200, 200])));
             }
@@ -84,7 +84,7 @@ fn board_lies_in_every_window() {
 
 #[test]
 fn board_without_entries_says_what_to_do() {
-    let mut session = session(one_edge(), [800, 600]);
+    let mut session = session(rings(), [800, 600]);
     vary(&mut session, "sample-rate", "1,4");
     click_on(&mut session, "Clear the board");
     assert!(says(&mut session, "Nothing to compare yet"), "a hint");

@@ -77,8 +77,12 @@ impl Framebuffer {
     #[must_use]
     pub fn cut(&self, region: Region) -> Self {
         let whole = Region::of_size([self.width, self.height]);
-        let Region { x, y, width, height } = region.intersection(whole);
-        let rows = self.pixels.chunks_exact(self.width.max(1) as usize);
+        let region = region.intersection(whole);
+        if region.is_empty() {
+            return Self::default();
+        }
+        let Region { x, y, width, height } = region;
+        let rows = self.pixels.chunks_exact(self.width as usize);
         let (left, right) = (x as usize, x as usize + width as usize);
         let rows = rows.skip(y as usize).take(height as usize);
         Self {

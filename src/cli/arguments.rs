@@ -303,6 +303,19 @@ mod tests {
             "rasterscope pattern --sample-rate 257",
             "rasterscope pattern --seed 65536",
             "rasterscope pattern --pixel 5",
+            "rasterscope profile a.svg",
+            "rasterscope profile a.svg --line 1,2,3",
+            "rasterscope profile a.svg --line 1,2,3,x",
+            "rasterscope profile a.svg --line 1,2,3,4 --channel alpha",
+            "rasterscope profile a.svg --line 1,2,3,4 --sample-rate 5",
+        ] {
+            assert_at_fault(line);
+        }
+    }
+
+    #[test]
+    fn arguments_of_a_board_at_fault_get_one_line() {
+        for line in [
             "rasterscope board a.svg --with sample-rate=16 --sort ssim",
             "rasterscope board a.svg --vary pattern --region 1,2,3",
             "rasterscope board a.svg --vary pattern --region 1,2,0,3",
@@ -311,21 +324,21 @@ mod tests {
             "rasterscope board a.svg --vary pattern --markdown --csv",
             "rasterscope board a.svg --vary pattern --frames 0",
             "rasterscope board a.svg --vary pattern --sample-rate 5",
-            "rasterscope profile a.svg",
-            "rasterscope profile a.svg --line 1,2,3",
-            "rasterscope profile a.svg --line 1,2,3,x",
-            "rasterscope profile a.svg --line 1,2,3,4 --channel alpha",
-            "rasterscope profile a.svg --line 1,2,3,4 --sample-rate 5",
         ] {
-            match parsed(line) {
-                Err(Failure::Input(message)) => {
-                    assert!(
-                        !message.contains('\n') && message.ends_with("--help`"),
-                        "{line}: {message}"
-                    );
-                }
-                other => panic!("{line}: {other:?}"),
+            assert_at_fault(line);
+        }
+    }
+
+    /// One line, which names the way to help.
+    fn assert_at_fault(line: &str) {
+        match parsed(line) {
+            Err(Failure::Input(message)) => {
+                assert!(
+                    !message.contains('\n') && message.ends_with("--help`"),
+                    "{line}: {message}"
+                );
             }
+            other => panic!("{line}: {other:?}"),
         }
     }
 

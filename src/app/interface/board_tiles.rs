@@ -335,7 +335,7 @@ mod tests {
         let tall = of(10, 1.0, [300.0, 300.0]).expect("room for some");
         assert_eq!((tall.columns, tall.tile), (2, 64.0), "the rest scrolls");
         let small = of(10, 4.0, [580.0, 240.0]).expect("room for some");
-        assert_eq!(small.tile, 64.0, "no tiny ones");
+        assert_eq!((small.columns, small.tile), (5, 64.0), "no tiny ones");
         assert_eq!(of(10, 1.0, [90.0, 300.0]), None, "too narrow");
         assert_eq!(of(10, 1.0, [300.0, 90.0]), None, "too low");
     }

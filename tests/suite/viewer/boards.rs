@@ -121,7 +121,7 @@ fn board_truth_is_averaged_as_a_is_or_as_was_chosen() {
     session.run(board(BoardCommand::SetSide(32)));
     session.run(vary("sample-rate", "4"));
     let render = session.viewer.settings().render;
-    let mut check = |session: &mut Session, space: ResolveSpace, words: &str| {
+    let check = |session: &mut Session, space: ResolveSpace, words: &str| {
         let truth = RenderSettings {
             resolve: space,
             ..render.truth()

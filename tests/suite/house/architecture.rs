@@ -88,7 +88,7 @@ const ROOMS: &[Room] = &[
         rooms: &[
             "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
-        crates: &[],
+        crates: &["rustfft"],
     },
     Room {
         name: "inspect",
@@ -177,6 +177,7 @@ const GUARDED: &[&str] = &[
     "epaint_default_fonts",
     "png",
     "sha2",
+    "rustfft",
     "kurbo",
     "i_triangle",
     "clap",

@@ -1,0 +1,416 @@
+//! A picture as a sum of waves: how strong each frequency is, and where its crests lie.
+//!
+//! A wave of a whole number of periods across the picture reads its own amplitude (and its neighbours a half of it, which is
+//! Hann's window); one between two such frequencies reads up to 1.4 dB less along each axis.
+
+use std::f64::consts::{PI, TAU};
+
+use rustfft::num_complex::Complex;
+
+use super::fourier::{hann, transform};
+use super::luma::LumaPlane;
+
+/// The amplitude that counts as 0 dB: a wave from black to white.
+const FULL: f64 = 127.5;
+/// Less is nothing, in dB.
+const NOTHING: f64 = -160.0;
+/// Periods across the picture up to which it is shading rather than a wave.
+const SLOW: i64 = 2;
+/// How much weaker than the strongest a peak may be, in dB.
+const WEAKER: f64 = 50.0;
+/// The weakest peak, in dB: what rounding to 256 levels makes of nothing is weaker.
+const WEAKEST: f64 = -80.0;
+/// How far apart two peaks are at least, in steps of frequency: half the width of a peak by Hann's window, and one more.
+const APART: i64 = 3;
+
+/// One wave: stripes of lighter and darker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// How many of its periods fit into a pixel to the right and down; of a texture into a texel.
+    pub frequency: [f64; 2],
+    /// Half of what lies between its darkest and its lightest value, in levels of 255.
+    pub amplitude: f64,
+    /// Where in its period it is at the corner of what was transformed, in radians; it is lightest at 0.
+    pub(super) phase: f64,
+}
+
+impl Wave {
+    /// From crest to crest, in pixels; infinite for frequency zero.
+    pub fn wavelength(&self) -> f64 {
+        1.0 / self.frequency[0].hypot(self.frequency[1])
+    }
+
+    /// The direction from stripe to stripe, in degrees clockwise from right, above -90 up to 90.
+    pub fn angle(&self) -> f64 {
+        let [x, y] = self.frequency;
+        let angle = y.atan2(x).to_degrees();
+        // A wave is the same backwards.
+        if angle > 90.0 {
+            angle - 180.0
+        } else if angle <= -90.0 {
+            angle + 180.0
+        } else {
+            angle
+        }
+    }
+
+    /// `20 log10` of its amplitude, 0 for a wave from black to white.
+    pub fn decibels(&self) -> f64 {
+        decibels(self.amplitude)
+    }
+
+    /// Its value at a place in pixels from the corner of what was transformed, in levels of 255.
+    pub fn value_at(&self, [x, y]: [f64; 2]) -> f64 {
+        self.amplitude * (TAU * (self.frequency[0] * x + self.frequency[1] * y) + self.phase).cos()
+    }
+}
+
+/// An amplitude in levels of 255 as `20 log10`, 0 for a wave from black to white.
+pub(super) fn decibels(amplitude: f64) -> f64 {
+    (20.0 * (amplitude / FULL).log10()).max(NOTHING)
+}
+
+/// The waves that a plane of numbers is the sum of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spectrum {
+    /// Columns and rows in pixels.
+    size: [u32; 2],
+    /// Numbers in a pixel along each axis.
+    fineness: u32,
+    /// Amplitude and phase of each frequency, in the order of [`transform`].
+    waves: Vec<Complex<f32>>,
+}
+
+impl Spectrum {
+    /// That of a plane with so many numbers in a pixel along each axis, without its mean. Where there are several, each is the
+    /// mean over its square: what that takes from a wave is given back.
+    pub(super) fn of(mut plane: LumaPlane, fineness: u32) -> Self {
+        let counts = plane.size.map(|side| side as usize);
+        let [across, down] = counts.map(hann);
+        let weights = || {
+            down.iter()
+                .flat_map(|down| across.iter().map(move |across| down * across))
+        };
+        let gain: f64 = weights().map(f64::from).sum();
+        let weighed = plane.values.iter().zip(weights());
+        let sum: f64 = weighed
+            .map(|(value, weight)| f64::from(*value) * f64::from(weight))
+            .sum();
+        #[expect(clippy::cast_possible_truncation, reason = "levels of 255")]
+        let mean = (sum / gain.max(f64::MIN_POSITIVE)) as f32;
+        for (value, weight) in plane.values.iter_mut().zip(weights()) {
+            *value = (*value - mean) * weight;
+        }
+        let waves = transform(&plane.values, counts[0]);
+        let size = plane.size.map(|side| side / fineness.max(1));
+        let mut spectrum = Self { size, fineness, waves };
+        spectrum.scale(2.0 / gain.max(f64::MIN_POSITIVE));
+        spectrum
+    }
+
+    /// Makes amplitudes of sums.
+    fn scale(&mut self, scale: f64) {
+        let factors = [0, 1].map(|axis| -> Vec<f64> {
+            let orders = 0..self.count(axis);
+            let side = self.count(axis) as f64;
+            // Of the higher half the frequencies are those below zero, for which it is the same.
+            let kept = |order: i64| sinc(order.min(self.count(axis) - order) as f64 / side);
+            let fine = self.fineness > 1;
+            orders
+                .map(|order| if fine { kept(order).recip() } else { 1.0 })
+                .collect()
+        });
+        let [across, down] = &factors;
+        let factors = across
+            .iter()
+            .flat_map(|across| down.iter().map(move |down| across * down));
+        for (wave, factor) in self.waves.iter_mut().zip(factors) {
+            #[expect(clippy::cast_possible_truncation, reason = "a few at most")]
+            let factor = (factor * scale) as f32;
+            *wave *= factor;
+        }
+        // A wave that is its own mirror image is there once, and not as two halves.
+        let own_mirrors = [0, 1].map(|axis| [0, self.count(axis) / 2]);
+        for order in [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]: [usize; 2]| [own_mirrors[0][x], own_mirrors[1][y]]) {
+            let [index, mirror] = self.indices(order);
+            if let Some(wave) = self.waves.get_mut(index).filter(|_| index == mirror) {
+                *wave *= 0.5;
+            }
+        }
+    }
+
+    /// Columns and rows that were transformed, in pixels.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The highest frequency that it knows along an axis, in cycles per pixel.
+    pub(super) fn reach(&self) -> f64 {
+        f64::from(self.fineness) / 2.0
+    }
+
+    /// How many frequencies it has along an axis.
+    fn count(&self, axis: usize) -> i64 {
+        i64::from(self.size[axis] * self.fineness)
+    }
+
+    /// Numbers of periods across the picture along an axis, from the lowest.
+    pub(super) fn orders(&self, axis: usize) -> std::ops::Range<i64> {
+        let count = self.count(axis);
+        -(count / 2)..count - count / 2
+    }
+
+    /// So many periods across the picture in cycles per pixel.
+    pub(super) fn frequency(&self, order: [i64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| order[axis] as f64 / f64::from(self.size[axis].max(1)))
+    }
+
+    /// The nearest number of periods, as long as the spectrum reaches so far.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "`as` saturates, and the range is checked"
+    )]
+    pub(super) fn order(&self, frequency: [f64; 2]) -> Option<[i64; 2]> {
+        let order = [0, 1].map(|axis| (frequency[axis] * f64::from(self.size[axis])).round() as i64);
+        let known = |axis: usize| order[axis].abs() <= self.count(axis) / 2;
+        (known(0) && known(1) && !self.waves.is_empty()).then_some(order)
+    }
+
+    /// The place of a number of periods in `waves`, and of its mirror image; frequencies repeat beyond the highest.
+    fn indices(&self, order: [i64; 2]) -> [usize; 2] {
+        let index = |sign: i64| {
+            let at = |axis: usize| (sign * order[axis]).rem_euclid(self.count(axis).max(1));
+            usize::try_from(at(0) * self.count(1) + at(1)).unwrap_or_default()
+        };
+        [1, -1].map(index)
+    }
+
+    /// The square of the amplitude of the wave with so many periods across the picture.
+    pub(super) fn power(&self, order: [i64; 2]) -> f64 {
+        let [index, _] = self.indices(order);
+        self.waves.get(index).map_or(0.0, |wave| f64::from(wave.norm_sqr()))
+    }
+
+    /// The wave with so many periods across the picture.
+    pub(super) fn wave(&self, order: [i64; 2]) -> Wave {
+        let frequency = self.frequency(order);
+        let [index, _] = self.indices(order);
+        let phase = self.waves.get(index).map_or(0.0, |wave| f64::from(wave.arg()));
+        // Numbers stand for the middles of their squares.
+        let half = frequency[0].midpoint(frequency[1]) / f64::from(self.fineness.max(1));
+        Wave {
+            frequency,
+            amplitude: self.power(order).sqrt(),
+            phase: phase - TAU * half,
+        }
+    }
+
+    /// The strongest waves, at most `count`, the strongest first, of each and its mirror image one; slow shading is none.
+    pub(super) fn peaks(&self, count: usize) -> Vec<[i64; 2]> {
+        let places = || {
+            let rows = self.orders(1);
+            rows.flat_map(|y| self.orders(0).map(move |x| [x, y]))
+        };
+        let is_wave = |order: &[i64; 2]| {
+            let [index, mirror] = self.indices(*order);
+            index <= mirror && order.iter().any(|order| order.abs() > SLOW)
+        };
+        let powers = places().filter(is_wave).map(|order| (self.power(order), order));
+        let most = powers.clone().fold(0.0, |most: f64, (power, _)| most.max(power));
+        let least = (decibels(most.sqrt()) - WEAKER).max(WEAKEST);
+        let mut found: Vec<(f64, [i64; 2])> = powers
+            .filter(|(power, order)| decibels(power.sqrt()) >= least && self.is_peak(*order, *power))
+            .collect();
+        found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut peaks: Vec<[i64; 2]> = Vec::new();
+        for (_, order) in found {
+            if peaks.len() == count {
+                break;
+            }
+            if peaks.iter().all(|other| !self.is_near(order, *other)) {
+                peaks.push(order);
+            }
+        }
+        peaks.into_iter().map(to_right).collect()
+    }
+
+    /// Whether no wave beside it is stronger.
+    fn is_peak(&self, [x, y]: [i64; 2], power: f64) -> bool {
+        let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [x + dx, y + dy]));
+        beside.map(|order| self.power(order)).all(|other| other <= power)
+    }
+
+    /// Whether both are one peak, or mirror images of one.
+    fn is_near(&self, a: [i64; 2], b: [i64; 2]) -> bool {
+        let near = |sign: i64| {
+            (0..2).all(|axis| {
+                let count = self.count(axis).max(1);
+                let apart = (a[axis] - sign * b[axis]).rem_euclid(count);
+                apart.min(count - apart) < APART
+            })
+        };
+        near(1) || near(-1)
+    }
+}
+
+/// Of a wave and its mirror image the one that runs to the right, or straight down.
+fn to_right([x, y]: [i64; 2]) -> [i64; 2] {
+    if x < 0 || (x == 0 && y < 0) { [-x, -y] } else { [x, y] }
+}
+
+fn sinc(x: f64) -> f64 {
+    if x.abs() < 1e-9 { 1.0 } else { (PI * x).sin() / (PI * x) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave of `frequency` in cycles per pixel, read in the middles of pixels.
+    fn grating(size: [u32; 2], frequency: [f64; 2], amplitude: f64, phase: f64) -> LumaPlane {
+        let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y].map(|at| f64::from(at) + 0.5)));
+        let value = |[x, y]: [f64; 2]| {
+            let turns = frequency[0] * x + frequency[1] * y;
+            100.0 + amplitude * (TAU * turns + phase).cos()
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "levels of 255")]
+        let values = places.map(|at| value(at) as f32).collect();
+        LumaPlane { size, values }
+    }
+
+    fn strongest(plane: LumaPlane) -> Wave {
+        let spectrum = Spectrum::of(plane, 1);
+        let peaks = spectrum.peaks(5);
+        assert_eq!(peaks.len(), 1, "one wave: {peaks:?}");
+        spectrum.wave(peaks[0])
+    }
+
+    fn assert_near(found: f64, expected: f64, what: &str) {
+        assert!((found - expected).abs() < 1e-3, "{what}: {found} for {expected}");
+    }
+
+    #[test]
+    fn grating_peaks_at_its_frequency_with_its_amplitude() {
+        for (size, frequency) in [
+            ([64, 48], [0.25, 0.125]),
+            ([40, 40], [0.3, -0.2]),
+            ([45, 50], [0.0, 0.42]),
+        ] {
+            let found = strongest(grating(size, frequency, 50.0, 0.7));
+            assert_near(found.frequency[0], frequency[0], "across");
+            assert_near(found.frequency[1], frequency[1], "down");
+            assert_near(found.amplitude, 50.0, "its amplitude");
+            assert_near(found.decibels(), 20.0 * (50.0_f64 / 127.5).log10(), "in decibels");
+            assert_near(
+                found.wavelength(),
+                1.0 / frequency[0].hypot(frequency[1]),
+                "its wavelength",
+            );
+            for at in [[0.5, 0.5], [3.0, 7.5]] {
+                let turns = frequency[0] * at[0] + frequency[1] * at[1];
+                assert_near(
+                    found.value_at(at),
+                    50.0 * (TAU * turns + 0.7).cos(),
+                    "its crests lie there",
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn grating_that_is_too_fine_peaks_where_it_is_folded_to() {
+        let found = strongest(grating([80, 60], [0.7, 0.0], 30.0, 0.0));
+        assert_near(found.frequency[0], 0.3, "0.7 - 1, mirrored");
+        assert_near(found.amplitude, 30.0, "as strong");
+        let checker = strongest(grating([32, 32], [0.5, 0.5], 30.0, PI));
+        assert_near(checker.amplitude, 30.0, "every other pixel: its own mirror image");
+    }
+
+    #[test]
+    fn constant_has_no_waves() {
+        let spectrum = Spectrum::of(grating([33, 20], [0.0, 0.0], 70.0, 0.0), 1);
+        let all = spectrum.orders(1).flat_map(|y| spectrum.orders(0).map(move |x| [x, y]));
+        let most = all.map(|order| spectrum.power(order)).fold(0.0, f64::max);
+        assert!(most < 1e-6, "{most}");
+        assert!(spectrum.peaks(9).is_empty(), "no peak");
+    }
+
+    #[test]
+    fn power_of_noise_is_its_variance_by_the_windows_gain() {
+        let mut state = 1_u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f32::from(u8::try_from(state >> 24).unwrap_or(0))
+        };
+        let size = [96, 64];
+        let values: Vec<f32> = (0..size[0] * size[1]).map(|_| noise()).collect();
+        let mean = values.iter().sum::<f32>() / values.len() as f32;
+        let variance = values.iter().map(|value| f64::from(value - mean).powi(2)).sum::<f64>() / values.len() as f64;
+        let spectrum = Spectrum::of(LumaPlane { size, values }, 1);
+        let all = spectrum.orders(1).flat_map(|y| spectrum.orders(0).map(move |x| [x, y]));
+        let power: f64 = all.map(|order| spectrum.power(order)).sum();
+        // Half of a wave's squared amplitude is its power, in two halves; Hann's squares have a mean of 3/8, its own a quarter.
+        let expected = variance * 4.0 * 2.25;
+        assert!((power / expected - 1.0).abs() < 0.05, "{power} for {expected}");
+    }
+
+    #[test]
+    fn spectrum_is_symmetrical_and_repeats() {
+        let spectrum = Spectrum::of(grating([20, 15], [0.23, 0.11], 60.0, 1.0), 1);
+        for [x, y] in [[3, 2], [-7, 5], [9, -4]] {
+            let power = spectrum.power([x, y]);
+            assert!(
+                (spectrum.power([-x, -y]) - power).abs() <= 1e-5 * power.max(1e-3),
+                "mirrored at {x}, {y}"
+            );
+            assert!(
+                (spectrum.power([x + 20, y - 15]) - power).abs() <= 1e-9,
+                "repeated at {x}, {y}"
+            );
+        }
+    }
+
+    #[test]
+    fn finer_numbers_reach_farther_and_keep_amplitudes() {
+        // Means over thirds of a pixel.
+        #[expect(clippy::cast_possible_truncation, reason = "a part of one")]
+        let kept = sinc(0.4) as f32;
+        let mut plane = grating([120, 90], [0.4, 0.0], 40.0, 0.0);
+        for value in &mut plane.values {
+            *value = 100.0 + (*value - 100.0) * kept;
+        }
+        let spectrum = Spectrum::of(plane, 3);
+        assert_near(spectrum.reach(), 1.5, "in cycles per pixel");
+        let peaks = spectrum.peaks(4);
+        let found = spectrum.wave(peaks[0]);
+        assert_near(found.frequency[0], 1.2, "three times 0.4");
+        assert!(
+            (found.amplitude - 40.0).abs() < 0.02,
+            "what the means took is back: {}",
+            found.amplitude
+        );
+        assert_near(
+            found.value_at([1.0 / 6.0, 0.2]) / found.amplitude,
+            (TAU * 0.4 * 0.5).cos(),
+            "in pixels",
+        );
+    }
+
+    #[test]
+    fn angles_are_those_of_stripes() {
+        let angle = |frequency| {
+            let (amplitude, phase) = (1.0, 0.0);
+            Wave {
+                frequency,
+                amplitude,
+                phase,
+            }
+            .angle()
+        };
+        assert_near(angle([0.1, 0.1]), 45.0, "to the right and down");
+        assert_near(angle([-0.1, -0.1]), 45.0, "the same backwards");
+        assert_near(angle([0.1, -0.1]), -45.0, "to the right and up");
+        assert_near(angle([0.0, -0.1]), 90.0, "up is down");
+        assert_near(angle([-0.2, 0.0]), 0.0, "left is right");
+    }
+}

@@ -13,6 +13,7 @@ mod depth;
 mod differences;
 mod explanation;
 mod interpolated_words;
+mod level_in_use;
 mod model;
 mod numbers;
 mod part_words;
@@ -31,6 +32,7 @@ pub use accumulation::Convergence;
 pub use contributions::{ContributedPixel, Contributions, TexelPlace};
 pub use differences::Difference;
 pub use explanation::Question;
+pub use level_in_use::LevelInUse;
 pub use model::{
     Around, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample,
     Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View,

@@ -36,17 +36,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     let Interpolated::Texture { uv, taps, texels } = value else {
         return None;
     };
-    let level = texture.levels.iter().max_by(|a, b| a.weight.total_cmp(&b.weight))?;
-    let image = viewer
-        .frames()
-        .frame()
-        .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
-        .and_then(|image| {
-            image
-                .pyramid_in(texture.averaged_in(), texture.filtered_by())
-                .levels()
-                .get(level.number)
-        })?;
+    let level = &texture.main_level()?;
+    let frame = viewer.frames().frame()?;
+    let image = texture.texels(&frame.picture.scene, level)?;
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH.min(ui.available_width()), HEIGHT), Sense::hover());
     let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
     let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);

@@ -6,16 +6,14 @@ use crate::inspect::Contributions;
 use crate::viewer::inspector::samples::Target;
 use crate::viewer::jobs::latest::Latest;
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::guarded;
 
 /// The state of finding out; pixels that cannot be replayed have `None`.
 pub(in crate::viewer) type Contributing = Latest<Target, Option<Contributions>>;
 
 /// Starts the thread.
 pub(in crate::viewer) fn start(mailbox: Mailbox<(Target, Option<Contributions>)>) -> io::Result<Contributing> {
-    Latest::start("feed", move |target: Target| {
+    Latest::answering("feed", mailbox, |target: &Target| {
         let picture = &target.picture;
-        let found = guarded(|| Contributions::around(&picture.subject(), picture.size, target.pixel));
-        mailbox.post((target, found.unwrap_or_default()));
+        Contributions::around(&picture.subject(), picture.size, target.pixel)
     })
 }

@@ -8,7 +8,6 @@ use crate::viewer::frames::frame::Picture;
 use crate::viewer::inspector::samples::Target;
 use crate::viewer::jobs::latest::Latest;
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::guarded;
 
 /// The state of explaining; a pixel that cannot be explained has `None`.
 pub(in crate::viewer) type Explaining = Latest<Asked, Option<Explained>>;
@@ -32,10 +31,7 @@ pub(in crate::viewer) struct Asked {
 
 /// Starts the thread that explains.
 pub(in crate::viewer) fn start(mailbox: Mailbox<(Asked, Option<Explained>)>) -> io::Result<Explaining> {
-    Latest::start("explain", move |asked: Asked| {
-        let explained = guarded(|| asked.explain()).unwrap_or_default();
-        mailbox.post((asked, explained));
-    })
+    Latest::answering("explain", mailbox, Asked::explain)
 }
 
 impl Asked {

@@ -62,10 +62,7 @@ impl fmt::Display for Hit {
 
 /// Starts the thread that probes.
 pub(in crate::viewer) fn start(mailbox: Mailbox<(Target, Vec<ProbedSample>)>) -> io::Result<Probing> {
-    Latest::start("probe", move |target: Target| {
-        let samples = target.probe();
-        mailbox.post((target, samples));
-    })
+    Latest::answering("probe", mailbox, Target::samples)
 }
 
 impl Target {

@@ -2,7 +2,8 @@
 
 use std::io;
 
-use crate::viewer::jobs::pool::{AtEnd, WorkerPool};
+use crate::viewer::jobs::mailbox::Mailbox;
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 
 /// The newest question, and the newest answer.
 #[derive(Debug)]
@@ -27,6 +28,25 @@ impl<Q: Clone + PartialEq + Send + 'static, A> Latest<Q, A> {
             found: None,
             is_running: false,
             number: 0,
+        })
+    }
+
+    /// As [`Latest::start`]: `find` finds out, and `mailbox` leads to [`Latest::finished`]. A defect of the program counts as the
+    /// answer of one who knows nothing.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub(in crate::viewer) fn answering(
+        name: &str,
+        mailbox: Mailbox<(Q, A)>,
+        find: impl Fn(&Q) -> A + Clone + Send + 'static,
+    ) -> io::Result<Self>
+    where
+        A: Default + Send + 'static,
+    {
+        Self::start(name, move |question| {
+            let answer = guarded(|| find(&question)).unwrap_or_default();
+            mailbox.post((question, answer));
         })
     }
 

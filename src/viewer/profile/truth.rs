@@ -9,7 +9,6 @@ use crate::render::{CancelToken, Subject, draw_regions};
 use crate::viewer::frames::frame::Picture;
 use crate::viewer::jobs::latest::Latest;
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::guarded;
 
 /// The state of drawing; what cannot be drawn is `None`.
 pub(in crate::viewer) type TruthAlong = Latest<LineOfPicture, Option<Profile>>;
@@ -25,10 +24,7 @@ pub(in crate::viewer) struct LineOfPicture {
 
 /// Starts the thread.
 pub(in crate::viewer) fn start(mailbox: Mailbox<(LineOfPicture, Option<Profile>)>) -> io::Result<TruthAlong> {
-    Latest::start("profile", move |asked: LineOfPicture| {
-        let found = guarded(|| asked.truth()).flatten();
-        mailbox.post((asked, found));
-    })
+    Latest::answering("profile", mailbox, LineOfPicture::truth)
 }
 
 impl LineOfPicture {

@@ -13,6 +13,7 @@
 //! state                                 the viewer: its parts side by side
 //! command                               what a user can do, as data
 //! lesson, board, export, profile,       the parts, each with its own state;
+//! lesson, export, spectrum, profile,    the parts, each with its own state;
 //! inspector, ab, frames, library,       none of them knows the viewer
 //! view, chrome
 //! settings, jobs, key_chords            what all of them use
@@ -20,6 +21,7 @@
 //!
 //! A part answers for itself: `viewer.scene_list().current()`, `viewer.ab().arrangement()`. What takes several parts is asked
 //! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Boarded`] (several settings beside the truth),
+//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Spectral`] (a spectrum),
 //! [`WindowContent`] and [`Recipes`].
 //!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
@@ -40,6 +42,7 @@ mod profile;
 pub mod script;
 mod settings;
 mod slides;
+mod spectrum;
 mod state;
 mod view;
 
@@ -62,6 +65,8 @@ pub use command::spec::{Action, CommandSpec, Group};
 pub use command::{
     AbCommand, BoardCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand,
     ProfileCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
+    SceneCommand, SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
 };
 pub use control::boarded::{Boarded, ShownTile};
 pub use control::both::Both;
@@ -69,6 +74,7 @@ pub use control::open::kind_of_file;
 pub use control::pointing::Pointing;
 pub use control::profiled::{LinePlace, ProfileCurve, ProfileSide, Profiled};
 pub use control::recipes::Recipes;
+pub use control::spectral::{Spectral, SpectrumPane};
 pub use control::window::WindowContent;
 pub use export::naming::NameTemplate;
 pub use export::restored::{Grammar, ReadArguments, Restored};
@@ -98,6 +104,8 @@ pub use library::{SceneEntry, SceneSource, SceneState, is_folder_of_course, list
 pub use settings::picture::{self, PictureSetting, SettingChange};
 pub use settings::{PixelZoom, Settings, Theme, Toggle};
 pub use slides::{SlideError, slides};
+pub use spectrum::SpectrumPart;
+pub use spectrum::question::{SpectrumFound, SpectrumPlace, spectrum_of};
 pub use state::{Viewer, ViewerOptions};
 pub use view::camera::{Camera, ViewContext, ViewNumbers};
 pub use view::layout::WindowLayout;

@@ -41,6 +41,9 @@ use crate::viewer::profile::Profiling;
 use crate::viewer::profile::truth;
 use crate::viewer::profile::truth::LineOfPicture;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
+use crate::viewer::spectrum::SpectrumState;
+use crate::viewer::spectrum::question;
+use crate::viewer::spectrum::question::{SpectrumFound, SpectrumQuestion};
 use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::Pointer;
 
@@ -85,6 +88,7 @@ pub struct Viewer {
     pub(in crate::viewer) inspector: Inspection,
     pub(in crate::viewer) profiling: Profiling,
     pub(in crate::viewer) board: Board,
+    pub(in crate::viewer) spectrum: SpectrumState,
     pub(in crate::viewer) export: Export,
     /// The sheet that is being put together.
     pub(in crate::viewer) sheet: SheetDesk,
@@ -125,6 +129,7 @@ pub(in crate::viewer) enum Finished {
     Contributed(Target, Box<Option<Contributions>>),
     Profiled(LineOfPicture, Option<Profile>),
     Board(BoardNews),
+    Transformed(SpectrumQuestion, Box<Option<SpectrumFound>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
     SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
@@ -201,6 +206,9 @@ impl Viewer {
                 mailbox.of(|(asked, found)| Finished::Profiled(asked, found)),
             )?),
             board: Board::new(BoardMeasuring::start(mailbox.of(Finished::Board))?),
+            spectrum: SpectrumState::new(question::start(
+                mailbox.of(|(asked, found)| Finished::Transformed(asked, Box::new(found))),
+            )?),
             export: Export {
                 saver,
                 grammar: options.grammar,

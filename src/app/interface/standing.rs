@@ -50,6 +50,7 @@ fn is_on(viewer: &Viewer, command: &Command) -> bool {
         Command::Inspector(InspectorCommand::Explanation(_)) => viewer.pixels().has_explanation_open(),
         Command::Profile(_) => viewer.profile().is_open(),
         Command::Board(BoardCommand::Show(_)) => viewer.board().is_open(),
+        Command::Spectrum(_) => viewer.spectrum().is_open(),
         Command::Scenes(SceneCommand::FollowFiles(_)) => viewer.scene_list().follows_files(),
         Command::Window(command) => match command {
             WindowCommand::OverlayText(_) => chrome.overlay_text(),

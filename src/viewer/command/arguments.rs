@@ -3,6 +3,8 @@
 use crate::viewer::{
     AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand,
     SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand, SheetCommand,
+    SpectrumCommand, SpectrumPart, ViewCommand, WindowCommand,
 };
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -10,6 +12,8 @@ use std::path::PathBuf;
 use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
 use crate::figure::{Ground, TableFormat};
+use crate::compare::{Measure, ProfileChannel, SpectrumOf};
+use crate::figure::Ground;
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::board::SIDES;
 use crate::viewer::board::numbers::BoardSort;
@@ -280,6 +284,14 @@ pub(in crate::viewer) const PROFILE: Argument =
         line().or_else(channel).or_else(switch).map(Command::Profile)
     });
 
+pub(in crate::viewer) const SPECTRUM: Argument =
+    argument("frame|difference|texture|scene, whole|pin, or on|off|flip", |text| {
+        let of = || named(&SpectrumOf::ALL, SpectrumOf::name, text).map(SpectrumCommand::Of);
+        let part = || named(&SpectrumPart::ALL, SpectrumPart::name, text).map(SpectrumCommand::Part);
+        let switch = || toggle(text).map(SpectrumCommand::Show);
+        of().or_else(part).or_else(switch).map(Command::Spectrum)
+    });
+
 pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::OverlayText).map(Command::Window)
 });
@@ -420,7 +432,15 @@ mod tests {
         ] {
             assert_eq!(PROFILE.parse(text), Ok(Command::Profile(command)), "{text}");
         }
+        for (text, command) in [
+            ("scene", SpectrumCommand::Of(SpectrumOf::Scene)),
+            ("pin", SpectrumCommand::Part(SpectrumPart::Pin)),
+            ("off", SpectrumCommand::Show(Toggle::Off)),
+        ] {
+            assert_eq!(SPECTRUM.parse(text), Ok(Command::Spectrum(command)), "{text}");
+        }
         for (argument, wrong) in [
+            (SPECTRUM, "image"),
             (ZOOM, "-1"),
             (ZOOM, "inf"),
             (PAN, "1"),

@@ -17,6 +17,8 @@ use crate::viewer::settings::picture::SettingChange;
 pub use parts::{
     AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
     SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand, SceneCommand,
+    SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
 };
 
 /// One thing that a user can do, by the part of the viewer that it is about.
@@ -42,6 +44,8 @@ pub enum Command {
     Profile(ProfileCommand),
     /// Several settings beside the truth.
     Board(BoardCommand),
+    /// The spectrum of the picture.
+    Spectrum(SpectrumCommand),
     /// What leaves the program.
     Export(ExportCommand),
     /// The sheet that is being put together.

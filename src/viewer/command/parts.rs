@@ -7,6 +7,8 @@ use glam::DVec2;
 use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
 use crate::figure::{PixelRect, TableFormat};
+use crate::compare::{Measure, ProfileChannel, SpectrumOf};
+use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::board::numbers::BoardSort;
@@ -17,6 +19,7 @@ use crate::viewer::export::sheet::draft::SheetChange;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::settings::picture::SettingChange;
 use crate::viewer::settings::{PixelZoom, Theme, Toggle};
+use crate::viewer::spectrum::SpectrumPart;
 use crate::viewer::view::camera::ViewNumbers;
 use crate::viewer::view::pointer::PointerButton;
 
@@ -213,6 +216,15 @@ pub enum BoardCommand {
     Copy(TableFormat),
     /// Saves the board as a picture.
     Save,
+/// The spectrum of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpectrumCommand {
+    /// Whether it is to be seen.
+    Show(Toggle),
+    /// Shows that of this.
+    Of(SpectrumOf),
+    /// Shows that of this part of the picture.
+    Part(SpectrumPart),
 }
 
 /// What leaves the program.

@@ -70,6 +70,7 @@ impl Viewer {
                 let copied = self.apply_board(command);
                 return tell_copied(&mut self.chrome, copied);
             }
+            Command::Spectrum(command) => self.hand().apply_spectrum(command),
             Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
             Command::Export(ExportCommand::OpenFolder) => {
                 return vec![Effect::OpenFolder(self.export.saver.folder_to_show())];

@@ -8,6 +8,7 @@ use crate::viewer::control::pointing::Pointing;
 use crate::viewer::control::profiled::Profiled;
 use crate::viewer::control::recipes::Recipes;
 use crate::viewer::control::save::Saving;
+use crate::viewer::control::spectral::Spectral;
 use crate::viewer::control::window::WindowContent;
 use crate::viewer::state::Viewer;
 
@@ -33,6 +34,15 @@ impl Viewer {
             both: self.both(),
             chrome: &self.chrome,
             profiling: &self.profiling,
+        }
+    }
+
+    /// The spectrum: what it is asked of, and what was found.
+    pub fn spectrum(&self) -> Spectral<'_> {
+        Spectral {
+            pixels: self.pixels(),
+            chrome: &self.chrome,
+            state: &self.spectrum,
         }
     }
 
@@ -62,6 +72,7 @@ impl Viewer {
             ab: &mut self.ab,
             inspector: &mut self.inspector,
             profiling: &mut self.profiling,
+            spectrum: &mut self.spectrum,
             pointer: &mut self.pointer,
         }
     }
@@ -77,6 +88,7 @@ impl Viewer {
             inspector: &mut self.inspector,
             profiling: &mut self.profiling,
             board: &mut self.board,
+            spectrum: &mut self.spectrum,
             export: &mut self.export,
         }
     }

@@ -13,6 +13,7 @@ use crate::viewer::inspector::state::Inspection;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::profile::Profiling;
 use crate::viewer::settings::Settings;
+use crate::viewer::spectrum::SpectrumState;
 use crate::viewer::view::layout::WindowLayout;
 use crate::viewer::view::pointer::{Pointer, PointerButton, WheelTarget, window_pixel};
 use crate::viewer::{PointerCommand, ViewCommand};
@@ -33,6 +34,7 @@ pub(in crate::viewer) struct Hand<'a> {
     pub(in crate::viewer) ab: &'a mut Comparison,
     pub(in crate::viewer) inspector: &'a mut Inspection,
     pub(in crate::viewer) profiling: &'a mut Profiling,
+    pub(in crate::viewer) spectrum: &'a mut SpectrumState,
     pub(in crate::viewer) pointer: &'a mut Pointer,
 }
 

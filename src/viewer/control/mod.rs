@@ -23,6 +23,7 @@ pub(in crate::viewer) mod profiled;
 pub(in crate::viewer) mod recipes;
 pub(in crate::viewer) mod save;
 pub(in crate::viewer) mod sheet;
+pub(in crate::viewer) mod spectral;
 pub(in crate::viewer) mod surface;
 pub(in crate::viewer) mod update;
 pub(in crate::viewer) mod viewing;

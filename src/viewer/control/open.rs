@@ -25,6 +25,7 @@ use crate::viewer::library::SceneEntry;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::profile::Profiling;
 use crate::viewer::settings::Settings;
+use crate::viewer::spectrum::SpectrumState;
 use crate::viewer::view::camera::Camera;
 
 /// What opening a file of this name gives: a `scene`, a `picture` or a `lesson`; `None` where it is none of these.
@@ -49,6 +50,7 @@ pub(in crate::viewer) struct Opening<'a> {
     pub(in crate::viewer) inspector: &'a mut Inspection,
     pub(in crate::viewer) profiling: &'a mut Profiling,
     pub(in crate::viewer) board: &'a mut Board,
+    pub(in crate::viewer) spectrum: &'a mut SpectrumState,
     pub(in crate::viewer) export: &'a mut Export,
 }
 
@@ -153,6 +155,7 @@ impl Opening<'_> {
             return true;
         }
         if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() {
+        if self.scene_list.give_up_reading() || self.profiling.escape() || self.spectrum.escape() {
             return true;
         }
         let mut context = ComparisonContext {

@@ -180,6 +180,7 @@ impl Hand<'_> {
             }
         }
         self.chrome.hidden &= !self.profiling.open;
+        self.spectrum.open &= !self.profiling.open;
     }
 
     /// Takes hold of an end of the line, or of the pixel where a new one begins.

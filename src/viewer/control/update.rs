@@ -38,6 +38,7 @@ impl Viewer {
             && drawn
             && self.inspector.is_answered()
             && self.profiling.truth.is_current()
+            && self.spectrum.spectra.is_current()
             && self.both().is_measured()
             && self.sheet.is_current()
             && self.board.measuring.is_current()
@@ -94,6 +95,7 @@ impl Viewer {
             Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
             Finished::Profiled(asked, found) => self.profiling.truth.finished(asked, found),
             Finished::Board(news) => self.board.measuring.take_in(news),
+            Finished::Transformed(asked, found) => self.spectrum.spectra.finished(asked, *found),
             Finished::Thumbnail(thumbnail) => self.scene_list.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.export.saver.take_in(saved, &mut self.chrome.messages),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
@@ -113,6 +115,7 @@ impl Viewer {
         self.hand().want_answers();
         self.hand().want_truth_along_line();
         self.want_board();
+        self.hand().want_spectrum();
         let legends = self.pixels().legends();
         self.frames.legends.place(legends);
         let drawn = self.window().drawn_state();

@@ -30,6 +30,7 @@ const HOUSES: &[House] = &[
             "ab",
             "inspector",
             "profile",
+            "spectrum",
             "export",
             "board",
             "lesson",

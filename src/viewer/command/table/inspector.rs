@@ -5,6 +5,7 @@ use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
 use crate::viewer::command::parts::InspectorCommand;
 use crate::viewer::command::parts::ProfileCommand;
+use crate::viewer::command::parts::SpectrumCommand;
 use crate::viewer::command::parts::WindowCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
@@ -133,6 +134,16 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
     .more("The truth costs a drawing of the tiles on the line with 256 samples per pixel, beside the picture")
     .run(&Command::Profile(ProfileCommand::Show(Toggle::Flip)))
     .argument(arguments::PROFILE),
+    spec(
+        "spectrum",
+        "Spectrum",
+        "Shows the waves that the frame, its difference to the truth, the mip level at the pin or the scene is made of, and which \
+         are aliases; pointing at one draws it over the picture",
+        Group::Inspector,
+    )
+    .more("It costs a drawing of at most 512 x 512 pixels with 144 samples each, and transforms of them, beside the picture")
+    .run(&Command::Spectrum(SpectrumCommand::Show(Toggle::Flip)))
+    .argument(arguments::SPECTRUM),
 ];
 
 const fn shift(key: Key) -> Chord {

@@ -1,0 +1,144 @@
+//! The spectrum at this moment: of what it is asked, what was found, where in the window its pixels lie.
+
+use glam::DVec2;
+
+use crate::compare::{SpectrumAnalysis, SpectrumOf};
+use crate::viewer::PixelRect;
+use crate::viewer::SpectrumCommand;
+use crate::viewer::chrome::Chrome;
+use crate::viewer::control::hand::Hand;
+use crate::viewer::control::pointing::Pointing;
+use crate::viewer::spectrum::question::{SpectrumFound, SpectrumPlace, SpectrumQuestion};
+use crate::viewer::spectrum::{SpectrumPart, SpectrumState};
+use crate::viewer::view::layout::magnified;
+
+/// The spectrum of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Spectral<'a> {
+    pub(in crate::viewer) pixels: Pointing<'a>,
+    pub(in crate::viewer) chrome: &'a Chrome,
+    pub(in crate::viewer) state: &'a SpectrumState,
+}
+
+/// Where the pixels of a spectrum are in a pane of the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumPane {
+    /// Their upper left corner, in window pixels; it may lie outside the pane.
+    pub corner: DVec2,
+    /// Width and height of all of them, in window pixels.
+    pub size: DVec2,
+    /// The pane.
+    pub area: PixelRect,
+}
+
+impl<'a> Spectral<'a> {
+    /// Whether a spectrum is to be seen.
+    pub fn is_open(&self) -> bool {
+        self.state.open && !self.chrome.hidden
+    }
+
+    /// Of what.
+    pub fn of(&self) -> SpectrumOf {
+        self.state.of
+    }
+
+    /// Of which part of the picture.
+    pub fn part(&self) -> SpectrumPart {
+        self.state.part
+    }
+
+    /// Whether a pixel is pinned that parts and textures can follow.
+    pub fn has_pin(&self) -> bool {
+        self.pixels.pinned().is_some()
+    }
+
+    /// The newest spectrum; `None` before the first, and where there is none.
+    pub fn found(&self) -> Option<&'a SpectrumFound> {
+        self.state.spectra.newest().and_then(Option::as_ref)
+    }
+
+    /// Whether that is the one of this moment.
+    pub fn is_current(&self) -> bool {
+        self.pixels.both.frames.drawing.is_current() && self.state.spectra.is_current()
+    }
+
+    /// Another number, another spectrum.
+    pub fn number(&self) -> u64 {
+        self.state.spectra.number()
+    }
+
+    /// Where the pixels of the newest spectrum are to be seen: in every pane.
+    pub fn panes(&self) -> Vec<SpectrumPane> {
+        let Some(found) = self.found() else {
+            return Vec::new();
+        };
+        let region = SpectrumAnalysis::middle_of(found.place.region);
+        let layout = &self.pixels.both.layout;
+        let zoom = f64::from(layout.zoom());
+        let pixels = |[x, y]: [u32; 2]| DVec2::new(f64::from(x), f64::from(y));
+        let panes = layout.panes();
+        let all = std::iter::once(panes.first).chain(panes.second);
+        let place = all.map(|pane| SpectrumPane {
+            corner: (pixels([region.x, region.y]) + DVec2::new(pane.corner[0] as f64, pane.corner[1] as f64)) * zoom,
+            size: pixels([region.width, region.height]) * zoom,
+            area: magnified(&pane.area, layout.zoom()),
+        });
+        place.collect()
+    }
+
+    /// What is asked; `None` while there is nothing to show.
+    pub(in crate::viewer) fn question(&self) -> Option<SpectrumQuestion> {
+        let picture = &self.pixels.both.frames.frame().filter(|_| self.is_open())?.picture;
+        let size = picture.size;
+        let pixel = self.pixels.pinned().unwrap_or(size.map(|side| side / 2));
+        let place = SpectrumPlace {
+            region: self.state.part.region(size, pixel),
+            pixel,
+        };
+        (!size.contains(&0)).then(|| SpectrumQuestion {
+            picture: picture.clone(),
+            place,
+            of: self.state.of,
+        })
+    }
+}
+
+impl Hand<'_> {
+    pub(in crate::viewer) fn spectral(&self) -> Spectral<'_> {
+        Spectral {
+            pixels: self.pixels(),
+            chrome: self.chrome,
+            state: self.spectrum,
+        }
+    }
+
+    pub(in crate::viewer) fn apply_spectrum(&mut self, command: SpectrumCommand) {
+        // What is hidden is not open to the eye.
+        let was_open = self.spectral().is_open();
+        self.spectrum.open = match command {
+            SpectrumCommand::Show(toggle) => toggle.of(was_open),
+            SpectrumCommand::Of(of) => {
+                self.spectrum.of = of;
+                true
+            }
+            SpectrumCommand::Part(part) => {
+                self.spectrum.part = part;
+                true
+            }
+        };
+        if self.spectrum.open {
+            // Both cards would lie on each other in a small window.
+            self.profiling.show(false);
+            self.chrome.hidden = false;
+        }
+    }
+
+    /// Asks for the spectrum. While the picture moves, the last one stays.
+    pub(in crate::viewer) fn want_spectrum(&mut self) {
+        if self.spectrum.open && !self.frames.drawing.is_current() {
+            return;
+        }
+        let question = self.spectral().question();
+        self.spectrum.spectra.want(question, |_| None);
+    }
+}

@@ -20,6 +20,7 @@ use super::options::render::RenderOptions;
 use super::options::rerun::RerunOptions;
 use super::options::sampling::SamplingOptions;
 use super::options::sheet::SheetOptions;
+use super::options::spectrum::SpectrumOptions;
 use super::options::sweep::SweepOptions;
 use super::options::view::ViewerOptions;
 use super::options::writeup::WriteupOptions;
@@ -73,6 +74,8 @@ pub(super) enum Verb {
     Pattern(PatternOptions),
     /// Measure an edge along a line, beside the truth: shades, 10-90 % width, overshoot
     Profile(ProfileOptions),
+    /// Tell which waves a picture is made of, and which of them are aliases; a picture of its spectrum
+    Spectrum(SpectrumOptions),
 }
 
 impl Verb {
@@ -89,6 +92,7 @@ impl Verb {
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
             Self::Profile(options) => Some(&options.picture.sampling),
+            Self::Spectrum(options) => Some(&options.picture.sampling),
         }
     }
 
@@ -102,6 +106,7 @@ impl Verb {
             Self::Board(options) => Some(&mut options.scene),
             Self::Inspect(options) => Some(&mut options.scene),
             Self::Profile(options) => Some(&mut options.scene),
+            Self::Spectrum(options) => Some(&mut options.scene),
             _ => None,
         }
     }
@@ -303,6 +308,11 @@ mod tests {
             "rasterscope pattern --sample-rate 257",
             "rasterscope pattern --seed 65536",
             "rasterscope pattern --pixel 5",
+            "rasterscope spectrum a.svg --of image",
+            "rasterscope spectrum a.svg --region 1,2,3",
+            "rasterscope spectrum a.svg --region 1,2,0,3",
+            "rasterscope spectrum a.svg --peaks 0",
+            "rasterscope spectrum a.svg --sample-rate 5",
             "rasterscope profile a.svg",
             "rasterscope profile a.svg --line 1,2,3",
             "rasterscope profile a.svg --line 1,2,3,x",

@@ -145,6 +145,19 @@ pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 13] = [
             ),
         ],
     ),
+    (
+        "spectrum",
+        &[
+            (
+                "rasterscope spectrum drawing.svg --of scene -o spectrum.png",
+                "which waves of the scene are too fine for the pixels, and where they land",
+            ),
+            (
+                "rasterscope spectrum drawing.svg --region 300,200,128,128 --json",
+                "the strongest waves of a part of the frame",
+            ),
+        ],
+    ),
 ];
 
 /// The program with the examples at the end of its commands' help.

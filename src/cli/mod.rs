@@ -24,6 +24,7 @@ mod rerun;
 mod restore;
 mod sheet;
 mod size;
+mod spectrum;
 mod sweep;
 mod view;
 mod view_option;
@@ -117,5 +118,6 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::Bench(options) => bench::run(options),
         Verb::Pattern(options) => pattern::run(options),
         Verb::Profile(options) => profile::run(options, restored),
+        Verb::Spectrum(options) => spectrum::run(options, restored),
     }
 }

@@ -18,6 +18,8 @@ mod sheet;
 mod shrink;
 mod snippets;
 mod table;
+#[cfg(feature = "cli")]
+mod spectrum;
 mod tag;
 mod text;
 mod vacancy;
@@ -38,5 +40,7 @@ pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
 pub use shrink::shrunk;
 pub use snippets::{Figure, html, latex, markdown};
 pub use table::{Table, TableFormat};
+#[cfg(feature = "cli")]
+pub use spectrum::draw_spectrum;
 pub use tag::{Tag, add_tags, tag_unit};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

@@ -20,12 +20,14 @@ use crate::scene::{FileDigest, FolderResources};
 
 /// What texts of ours carry in their head, as a comment or as HTML's generator.
 pub(super) const MARK: &str = "made by rasterscope";
-/// What the head of a table of ours holds: the columns of a sweep (also as Markdown), of a frame log, and of a profile.
-const TABLES: [&str; 4] = [
+/// What the head of a table of ours holds: the columns of a sweep (also as Markdown), of a frame log, of a profile, and of a
+/// spectrum.
+const TABLES: [&str; 5] = [
     "median_ms,min_ms,",
     "median_ms | min_ms |",
     "at,shows,behind,draw,",
     "distance,x,y,red,green,",
+    "across,down,wavelength,",
 ];
 /// So much of a file is searched for them, in bytes.
 const HEAD: u64 = 1024;

@@ -15,6 +15,7 @@ pub(in crate::cli) mod render;
 pub(in crate::cli) mod rerun;
 pub(in crate::cli) mod sampling;
 pub(in crate::cli) mod sheet;
+pub(in crate::cli) mod spectrum;
 pub(in crate::cli) mod sweep;
 mod values;
 pub(in crate::cli) mod view;

@@ -7,6 +7,7 @@ use super::sweep::Quality;
 use super::writeup::Assignment;
 use crate::color::ResolveSpace;
 use crate::compare::{Measure, ProfileChannel};
+use crate::compare::{Measure, ProfileChannel, SpectrumOf};
 use crate::figure::Ground;
 use crate::viewer::{BoardSort, Theme};
 
@@ -35,3 +36,4 @@ named_values!(
     Ground,
     Assignment
 );
+named_values!(Quality, Theme, Measure, ProfileChannel, SpectrumOf, Ground, Assignment);

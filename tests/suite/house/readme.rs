@@ -119,6 +119,7 @@ fn readme_names_every_option_and_scene_folder() {
     for command in [
         "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench", "pattern",
         "profile", "board",
+        "profile", "spectrum",
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
             .args([command, "--help"])

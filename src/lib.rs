@@ -39,7 +39,7 @@
 //! | `app` (feature `window`) | window events | [`viewer::Command`]s, and a frame into a presented surface |
 //! | [`viewer`] | commands | state, a finished frame, saved files |
 //! | [`figure`] | frames | insets and figures |
-//! | [`compare`] | two frames | differences, error metrics, a guess at their cause; one and a line: an edge's profile |
+//! | [`compare`] | two frames | differences, error metrics, a guess at their cause; one by itself: an edge's profile, its spectrum |
 //! | [`inspect`] | one pixel | why it has its colour: samples, fragments, edges, texels, and what would help |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |

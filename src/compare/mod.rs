@@ -1,5 +1,6 @@
 //! How far two pictures of one size are apart: difference pictures, error metrics, the places that differ most, and
-//! which known cause explains the rest. And one picture by itself: a [`Profile`] along a line across an edge.
+//! which known cause explains the rest. And one picture by itself: a [`Profile`] along a line across an edge, the waves that it
+//! is made of by [`SpectrumAnalysis`].
 //!
 //! A [`Pair`] is the only way in to two pictures; it holds frames of equal size, A the reference and B the other. Its
 //! functions run on the current rayon pool, and their answers do not depend on the number of threads. Channels are compared

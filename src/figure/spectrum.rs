@@ -110,10 +110,12 @@ fn legend(analysis: &SpectrumAnalysis) -> Legend {
     Legend {
         title: match analysis.of() {
             SpectrumOf::Frame | SpectrumOf::Difference => {
-                "dB below a wave from black to white; coloured: alias of a wave"
+                "dB below a wave from black to white. Coloured: aliases of waves that are"
             }
-            SpectrumOf::Texture => "dB below a wave from black to white; coloured: for pixels",
-            SpectrumOf::Scene => "dB below a wave from black to white; coloured, and where it lands in the box:",
+            SpectrumOf::Texture => "dB below a wave from black to white. Coloured: what is for pixels",
+            SpectrumOf::Scene => {
+                "dB below a wave from black to white. Coloured, also where they land in the box: waves that are"
+            }
         },
         key: LegendKey::Scale(colors.collect(), ticks.to_vec()),
         others: bands.to_vec(),

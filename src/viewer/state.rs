@@ -130,6 +130,7 @@ pub(in crate::viewer) enum Finished {
     Profiled(LineOfPicture, Option<Profile>),
     Board(BoardNews),
     Transformed(SpectrumQuestion, Box<Option<SpectrumFound>>),
+    Transformed(SpectrumQuestion, Option<Arc<SpectrumFound>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
     SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
@@ -207,7 +208,7 @@ impl Viewer {
             )?),
             board: Board::new(BoardMeasuring::start(mailbox.of(Finished::Board))?),
             spectrum: SpectrumState::new(question::start(
-                mailbox.of(|(asked, found)| Finished::Transformed(asked, Box::new(found))),
+                mailbox.of(|(asked, found)| Finished::Transformed(asked, found)),
             )?),
             export: Export {
                 saver,

@@ -15,6 +15,7 @@ mod compare_marks;
 mod compare_numbers;
 mod contributions;
 mod controls;
+mod corner;
 mod dialogs;
 mod document;
 mod explanation;
@@ -45,6 +46,9 @@ mod scenes;
 mod scrubber;
 mod sheet;
 mod side_panel;
+mod spectrum;
+mod spectrum_plot;
+mod spectrum_wave;
 mod standing;
 mod start;
 mod status;
@@ -71,6 +75,8 @@ use profile::ProfileCard;
 pub(super) use report::Sections;
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
+use spectrum::SpectrumCard;
+use spectrum_wave::WaveOverPicture;
 pub(super) use widths::PanelWidths;
 use widths::SizedPanel;
 
@@ -97,6 +103,8 @@ pub(super) struct Interface {
     close_of_inset: CloseOfInset,
     profile: ProfileCard,
     board: BoardCard,
+    spectrum: SpectrumCard,
+    wave: WaveOverPicture,
     /// How wide panels are.
     pub(super) widths: PanelWidths,
     /// What the side panel remembers.
@@ -150,6 +158,8 @@ impl Interface {
             close_of_inset: CloseOfInset::default(),
             profile: ProfileCard::default(),
             board: BoardCard::default(),
+            spectrum: SpectrumCard::default(),
+            wave: WaveOverPicture::default(),
             widths: PanelWidths::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
@@ -344,6 +354,10 @@ impl Interface {
             profile_line::show(ui, viewer, free, profile.pixel);
             let board = self.board.show(ui, viewer, (free, self.timed), &mut asked.commands);
             cards.extend(board);
+            let spectrum = self.spectrum.show(ui, viewer, free, &mut asked.commands);
+            cards.extend(spectrum.taken);
+            self.wave
+                .show(ui, viewer, free, spectrum.reading.map(|reading| reading.wave));
         }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);

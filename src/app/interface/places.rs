@@ -36,6 +36,13 @@ pub(super) fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
     parts.into_iter().filter(Rect::is_positive).collect()
 }
 
+/// What of a pane no inset covers.
+pub(super) fn beside_insets(viewer: &Viewer, pane: Rect, scale: f32) -> Vec<Rect> {
+    insets(viewer, scale).into_iter().fold(vec![pane], |parts, hole| {
+        parts.into_iter().flat_map(|part| around(part, Some(hole))).collect()
+    })
+}
+
 /// Where a card over the picture goes: about `at`, as far as that leaves it in what is `free`.
 pub(super) fn card_area(name: &str, at: Pos2, free: Rect) -> Area {
     Area::new(Id::unique(name))

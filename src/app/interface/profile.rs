@@ -14,6 +14,7 @@
 use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::controls::{choice, tip};
+use super::corner::{APART, CardCorner};
 use super::floating::things;
 use super::look::CONTROL;
 use super::profile_plot;
@@ -37,15 +38,6 @@ const NAMES: f32 = 60.0;
 const COUNTS: f32 = 46.0;
 /// Pieces of the line that give way or are given way to, each by itself.
 const PARTS: u8 = 32;
-/// How near to the line the card may come, in points.
-const APART: f32 = 16.0;
-/// The corners where it may lie, the best first: words and settings stand on the left.
-const CORNERS: [Align2; 4] = [
-    Align2::RIGHT_BOTTOM,
-    Align2::LEFT_BOTTOM,
-    Align2::RIGHT_TOP,
-    Align2::LEFT_TOP,
-];
 /// What the columns of numbers are.
 const COLUMNS: [(&str, &str); 4] = [
     (
@@ -72,7 +64,7 @@ const COLUMNS: [(&str, &str); 4] = [
 /// Where the card is.
 #[derive(Debug, Default)]
 pub(super) struct ProfileCard {
-    corner: Option<Align2>,
+    corner: CardCorner,
 }
 
 /// What the card and the line take, and what is pointed at.
@@ -88,7 +80,7 @@ impl ProfileCard {
     /// Shows it in a corner of what is `free`, beside the line.
     pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Shown {
         if !viewer.profile().is_open() {
-            self.corner = None;
+            *self = Self::default();
             return Shown::default();
         }
         let curves = viewer.profile().curves();
@@ -133,23 +125,15 @@ impl ProfileCard {
         }
     }
 
-    /// The corner where it lies: where it was, unless the line came there; else where the least is in its way.
+    /// The corner where it lies, beside the line.
     fn choose(&mut self, ui: &Ui, viewer: &Viewer, room: Rect, size: Vec2) -> Align2 {
         let scale = ui.pixels_per_point();
         let line = along(viewer, scale);
         let things = things(viewer, scale);
-        let in_way = |corner: &Align2| {
-            let place = corner.align_size_within_rect(size, room).expand(APART);
+        self.corner.choose(size, room, |place| {
             let hidden = line.iter().filter(|at| place.contains(**at)).count();
             (hidden, things.iter().filter(|other| other.intersects(place)).count())
-        };
-        let stays = self.corner.filter(|corner| in_way(corner) == (0, 0));
-        let corner = stays.unwrap_or_else(|| {
-            let best = CORNERS.into_iter().min_by_key(in_way);
-            best.unwrap_or(Align2::RIGHT_BOTTOM)
-        });
-        self.corner = Some(corner);
-        corner
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use egui::{Color32, CursorIcon, Pos2, Rect, Stroke, Ui, pos2};
 use glam::DVec2;
 
-use super::places::{around, insets, points};
+use super::places::{beside_insets, points};
 use crate::viewer::Viewer;
 
 /// Radius of an end, in points: the pixel inside is to be seen.
@@ -51,13 +51,6 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, pointed: Option<[u32; 2
             ui.painter().with_clip_rect(part).circle(at, MARK, fill, edge);
         }
     }
-}
-
-/// What of a pane no inset covers.
-fn beside_insets(viewer: &Viewer, pane: Rect, scale: f32) -> Vec<Rect> {
-    insets(viewer, scale).into_iter().fold(vec![pane], |parts, hole| {
-        parts.into_iter().flat_map(|part| around(part, Some(hole))).collect()
-    })
 }
 
 fn cursor(ui: &Ui, viewer: &Viewer) {

@@ -36,6 +36,8 @@ mod room;
 mod scene_list;
 #[cfg(test)]
 mod small_windows;
+#[cfg(test)]
+mod spectra;
 mod stage;
 mod surface;
 #[cfg(test)]

@@ -8,8 +8,8 @@ use super::waves::decibels;
 use super::{Band, SpectrumAnalysis};
 use crate::raster::Framebuffer;
 
-/// What is dark and what is white, in dB; 0 is a wave from black to white.
-pub const DECIBELS: [f64; 2] = [-80.0, 0.0];
+/// What is dark and what is white, in dB below a wave from black to white: pictures have few waves that are stronger, or none.
+pub const DECIBELS: [f64; 2] = [-80.0, -20.0];
 /// What has no wave, and what has the strongest: opaque `0xAARRGGBB`.
 const ENDS: [u32; 2] = [0xff0a_0c10, 0xffff_ffff];
 
@@ -97,7 +97,7 @@ mod tests {
                 .map(|byte| u32::from(*byte))
                 .sum::<u32>()
         };
-        let steps = [-80.0, -60.0, -40.0, -20.0, 0.0].map(|decibels| light(scale_color(decibels, None)));
+        let steps = [-80.0, -65.0, -50.0, -35.0, -20.0].map(|decibels| light(scale_color(decibels, None)));
         assert!(steps.is_sorted_by(|a, b| a < b), "{steps:?}");
         let both = mixed(1.0, [0.5, 0.0, 0.0]).to_be_bytes();
         assert_eq!(both, [255, 243, 207, 128], "half white, half orange");

@@ -62,7 +62,7 @@ mod tests {
     fn planes_are_of_their_region() {
         let mut frame = Framebuffer::new(4, 3);
         for (i, pixel) in (0_u32..).zip(frame.pixels_mut()) {
-            *pixel = 0xff00_0000 | i * 0x0001_0101;
+            *pixel = 0xff00_0000 | (i * 0x0001_0101);
         }
         let region = Region {
             x: 1,

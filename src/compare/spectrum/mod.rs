@@ -207,6 +207,18 @@ impl SpectrumAnalysis {
         Some(self.reading(self.own.order(frequency)?))
     }
 
+    /// The strongest wave of those whose frequency is at most `near` away along each axis, in the same unit; `None` beyond the
+    /// highest.
+    pub fn strongest_near(&self, frequency: [f64; 2], near: f64) -> Option<SpectrumReading> {
+        let middle = self.own.order(frequency)?;
+        let [across, down] = self.own.size().map(|side| near.abs() * f64::from(side));
+        let [across, down] = [across, down].map(|reach| i64::from(whole(reach.min(64.0))));
+        let places = (-down..=down).flat_map(|y| (-across..=across).map(move |x| [middle[0] + x, middle[1] + y]));
+        let known = places.filter(|[x, y]| self.own.orders(0).contains(x) && self.own.orders(1).contains(y));
+        let strongest = known.max_by(|a, b| self.power(*a).total_cmp(&self.power(*b)));
+        Some(self.reading(strongest.unwrap_or(middle)))
+    }
+
     /// The strongest waves, at most `count`, the strongest first. Shading that is slower than three periods is none.
     pub fn peaks(&self, count: usize) -> Vec<SpectrumReading> {
         let peaks = self.own.peaks(count);

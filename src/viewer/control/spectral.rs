@@ -1,5 +1,7 @@
 //! The spectrum at this moment: of what it is asked, what was found, where in the window its pixels lie.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::compare::{SpectrumAnalysis, SpectrumOf};
@@ -53,18 +55,13 @@ impl<'a> Spectral<'a> {
     }
 
     /// The newest spectrum; `None` before the first, and where there is none.
-    pub fn found(&self) -> Option<&'a SpectrumFound> {
+    pub fn found(&self) -> Option<&'a Arc<SpectrumFound>> {
         self.state.spectra.newest().and_then(Option::as_ref)
     }
 
     /// Whether that is the one of this moment.
     pub fn is_current(&self) -> bool {
         self.pixels.both.frames.drawing.is_current() && self.state.spectra.is_current()
-    }
-
-    /// Another number, another spectrum.
-    pub fn number(&self) -> u64 {
-        self.state.spectra.number()
     }
 
     /// Where the pixels of the newest spectrum are to be seen: in every pane.

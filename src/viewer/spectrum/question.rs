@@ -1,6 +1,7 @@
 //! Spectra, found out in a thread.
 
 use std::io;
+use std::sync::Arc;
 
 use crate::compare::{SpectrumAnalysis, SpectrumOf};
 use crate::inspect::{Explanation, Question};
@@ -11,7 +12,7 @@ use crate::viewer::jobs::latest::Latest;
 use crate::viewer::jobs::mailbox::Mailbox;
 
 /// The state of finding out; what has no spectrum is `None`.
-pub(in crate::viewer) type Spectra = Latest<SpectrumQuestion, Option<SpectrumFound>>;
+pub(in crate::viewer) type Spectra = Latest<SpectrumQuestion, Option<Arc<SpectrumFound>>>;
 
 /// What a spectrum is asked of.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,16 +71,20 @@ fn of_texture(subject: &Subject<'_>, size: [u32; 2], place: SpectrumPlace) -> Op
     })?;
     let used = explanation.level_in_use()?;
     let texels = used.texture.texels(subject.scene, &used.level)?;
+    let name = &used.texture.name;
+    let name = name.rsplit('/').next().unwrap_or(name);
     Some(SpectrumFound {
         analysis: SpectrumAnalysis::of_level(texels, place.pixel, used.to_texels),
         place,
-        level: Some(format!("level {} of {}", used.level.number, used.texture.name)),
+        level: Some(format!("level {} of {name}", used.level.number)),
     })
 }
 
 /// Starts the thread.
-pub(in crate::viewer) fn start(mailbox: Mailbox<(SpectrumQuestion, Option<SpectrumFound>)>) -> io::Result<Spectra> {
+pub(in crate::viewer) fn start(
+    mailbox: Mailbox<(SpectrumQuestion, Option<Arc<SpectrumFound>>)>,
+) -> io::Result<Spectra> {
     Latest::answering("spectrum", mailbox, |asked: &SpectrumQuestion| {
-        spectrum_of(&asked.picture.subject(), asked.picture.size, asked.place, asked.of)
+        spectrum_of(&asked.picture.subject(), asked.picture.size, asked.place, asked.of).map(Arc::new)
     })
 }

@@ -225,6 +225,17 @@ fn overlay_board_compares_settings() {
         scale: 1.0,
         theme: Theme::Light,
         steps: "panel off; view 256,256,1; rate 16; truth-space linear; board-vary pattern grid,sobol,r2; wait 6000",
+/// The waves of a scene, with one too fine for pixels that is pointed at, and its stripes as pixels see them.
+#[test]
+fn overlay_shows_a_spectrum() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/07_checker_floor.svg");
+    let case = Case {
+        name: "overlay_spectrum",
+        size: [720, 520],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel off; spectrum scene; wait; move 576,200; wait 3000",
     };
     let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
     assert_eq!(found.err(), None, "as it was looked at");

@@ -14,5 +14,6 @@ mod outputs;
 mod patterns;
 mod profiles;
 mod records;
+mod spectra;
 mod sweep;
 mod writeup;

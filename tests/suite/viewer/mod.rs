@@ -11,4 +11,5 @@ mod replay;
 mod screenshots;
 mod scripts;
 mod sheets;
+mod spectra;
 mod visualisation;

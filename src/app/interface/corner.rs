@@ -1,0 +1,62 @@
+//! The corner of the picture where a card lies.
+
+use egui::{Align2, Rect, Vec2};
+
+/// The corners where it may lie, the best first: words and settings stand on the left.
+const CORNERS: [Align2; 4] = [
+    Align2::RIGHT_BOTTOM,
+    Align2::LEFT_BOTTOM,
+    Align2::RIGHT_TOP,
+    Align2::LEFT_TOP,
+];
+/// How near to what it gives way to the card may come, in points.
+pub(super) const APART: f32 = 16.0;
+
+/// Where a card is.
+#[derive(Debug, Default)]
+pub(super) struct CardCorner(Option<Align2>);
+
+impl CardCorner {
+    /// Whether a card of `size` fits into a corner of `room` where nothing is in its way.
+    pub(super) fn has_room<T: Ord + Default>(size: Vec2, room: Rect, in_way: impl Fn(Rect) -> T) -> bool {
+        let fits = size.x <= room.width() && size.y <= room.height();
+        let place = |corner: Align2| corner.align_size_within_rect(size, room).expand(APART);
+        fits && CORNERS.into_iter().any(|corner| in_way(place(corner)) == T::default())
+    }
+
+    /// The corner of `room` where a card of `size` lies: where it was, while nothing is in its way there; else where the least
+    /// is. `in_way` tells how much is in a place.
+    pub(super) fn choose<T: Ord + Default>(&mut self, size: Vec2, room: Rect, in_way: impl Fn(Rect) -> T) -> Align2 {
+        let in_way = |corner: &Align2| in_way(corner.align_size_within_rect(size, room).expand(APART));
+        let stays = self.0.filter(|corner| in_way(corner) == T::default());
+        let corner = stays.unwrap_or_else(|| {
+            let best = CORNERS.into_iter().min_by_key(in_way);
+            best.unwrap_or(Align2::RIGHT_BOTTOM)
+        });
+        self.0 = Some(corner);
+        corner
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn card_stays_until_something_comes_there() {
+        let mut corner = CardCorner::default();
+        let room = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
+        let size = vec2(100.0, 80.0);
+        let at = |place: [f32; 2]| move |card: Rect| usize::from(card.contains(place.into()));
+        assert_eq!(corner.choose(size, room, |_| 0), Align2::RIGHT_BOTTOM, "the best");
+        assert!(CardCorner::has_room(size, room, at([390.0, 290.0])), "three others");
+        assert!(!CardCorner::has_room(size, room, |_| 1), "all are taken");
+        assert!(!CardCorner::has_room(vec2(401.0, 80.0), room, |_| 0), "too wide");
+        let chosen = corner.choose(size, room, at([390.0, 290.0]));
+        assert_eq!(chosen, Align2::LEFT_BOTTOM, "it gives way");
+        let chosen = corner.choose(size, room, at([390.0, 10.0]));
+        assert_eq!(chosen, Align2::LEFT_BOTTOM, "and stays");
+        assert_eq!(corner.choose(size, room, |_| 1), Align2::RIGHT_BOTTOM, "all are as bad");
+    }
+}

@@ -1,0 +1,248 @@
+//! The card of a spectrum: which waves a picture is made of, and what is told of the one that is pointed at.
+//!
+//! ```text
+//!    Spectrum                         x
+//!    [ frame ][ difference ][ texture ][ scene ]
+//!    [ whole ][ pin ]
+//!   -0.5 .-------------.
+//!        |      |      |
+//!      0 |-- -- o -- --|          frequency zero in the middle, lighter is stronger
+//!        |      |      |
+//!    0.5 '-------------'
+//!    0.25, 0.10 cycles/px, -12 dB
+//! ```
+
+use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichText, Sense, Ui, vec2};
+
+use super::controls::{choice, tip};
+use super::corner::CardCorner;
+use super::floating::things;
+use super::look::CONTROL;
+use super::spectrum_plot::SpectrumPlot;
+use crate::compare::{Band, DECIBELS, SpectrumOf, SpectrumReading, scale_color};
+use crate::viewer::{Command, SpectrumCommand, SpectrumFound, SpectrumPart, Toggle, Viewer};
+
+/// Free space around the card, in points.
+const MARGIN: f32 = 10.0;
+/// Widths that the card's contents may have, in points: the first for which there is room beside other things.
+const SIDES: [f32; 4] = [320.0, 270.0, 220.0, 190.0];
+/// What is below and above the plot, in points: title, choices, words, legend.
+const BESIDES: f32 = 196.0;
+/// Width of the card around its contents, in points.
+const FRAME: f32 = 14.0;
+/// Width of the words about colours, in points.
+const LEGEND: f32 = 12.0;
+/// The part of a wave's power from which on it is told to be an alias.
+const ALIAS: f64 = 0.5;
+
+/// Where the card is, and its plot.
+#[derive(Debug, Default)]
+pub(super) struct SpectrumCard {
+    corner: CardCorner,
+    plot: SpectrumPlot,
+}
+
+/// What the card takes, and what is pointed at.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shown {
+    /// Where it lies, in points: other words give way.
+    pub(super) taken: Option<Rect>,
+    /// The wave that the pointer is over in the plot.
+    pub(super) reading: Option<SpectrumReading>,
+}
+
+impl SpectrumCard {
+    /// Shows it in a corner of what is `free`.
+    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Shown {
+        let spectrum = viewer.spectrum();
+        if !spectrum.is_open() {
+            *self = Self::default();
+            return Shown::default();
+        }
+        let room = free.shrink(MARGIN);
+        let things = things(viewer, ui.pixels_per_point());
+        let in_way = |place: Rect| things.iter().filter(|other| other.intersects(place)).count();
+        let size_of = |side: f32| vec2(side + FRAME, side + BESIDES);
+        let fits = |side: &f32| room.size().min_elem() > 0.0 && CardCorner::has_room(size_of(*side), room, in_way);
+        let side = SIDES.into_iter().find(fits).unwrap_or(SIDES[3]);
+        let corner = self.corner.choose(size_of(side), room, in_way);
+        let mut reading = None;
+        let area = Area::new(Id::unique("spectrum"))
+            .order(Order::Middle)
+            .fixed_pos(corner.pos_in_rect(&room))
+            .pivot(corner)
+            .constrain_to(free)
+            .fade_in(false)
+            .show(ui.ctx(), |ui| {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_width(side);
+                    head(ui, commands);
+                    choices(ui, viewer, commands);
+                    let found = spectrum.found().filter(|found| found.analysis.of() == spectrum.of());
+                    match found {
+                        Some(found) => {
+                            reading = self.plot.show(ui, found, side, spectrum.is_current());
+                            words(ui, found, reading.as_ref());
+                            legend(ui, found);
+                        }
+                        None => {
+                            ui.label(RichText::new(hint(viewer)).small().weak());
+                        }
+                    }
+                });
+            });
+        Shown {
+            taken: Some(area.response.rect),
+            reading,
+        }
+    }
+}
+
+/// What is said where there is nothing to plot.
+fn hint(viewer: &Viewer) -> &'static str {
+    let spectrum = viewer.spectrum();
+    if !spectrum.is_current() {
+        "Being found out \u{2026}"
+    } else if spectrum.of() == SpectrumOf::Texture && spectrum.has_pin() {
+        "The pinned pixel shows no texture: pin one that does, by a right click."
+    } else if spectrum.of() == SpectrumOf::Texture {
+        "The pixel in the middle shows no texture: pin one that does, by a right click."
+    } else {
+        "There is no picture."
+    }
+}
+
+/// The title, and what closes the card.
+fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Spectrum").strong())
+            .on_hover_text(tip("spectrum"));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let close = ui.add(Button::new("\u{d7}").min_size(CONTROL));
+            let close = close.on_hover_text("Closes the spectrum. Nothing is drawn for it any more.");
+            if close.accessible_name("Close the spectrum").clicked() {
+                commands.push(Command::Spectrum(SpectrumCommand::Show(Toggle::Off)));
+            }
+        });
+    });
+}
+
+/// Of what, and of which part.
+fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let spectrum = viewer.spectrum();
+    let values = SpectrumOf::ALL.map(|of| (of, of.name().to_owned()));
+    let tip = "Of the frame as its pixels are, of what it differs from the truth by, of the mip level that the pinned pixel reads, or \
+               of the scene before pixels sample it. The difference costs a drawing with 256 samples for each pixel.";
+    let chosen = choice(ui, "Spectrum of", tip, spectrum.of(), &values);
+    commands.extend(chosen.map(SpectrumCommand::Of).map(Command::Spectrum));
+    let values = SpectrumPart::ALL.map(|part| (part, words_of(part).to_owned()));
+    let tip = "Of the whole frame, or its middle of 512 x 512 pixels; or of 128 x 128 pixels around the pinned one. Fewer pixels \
+               cost less, and tell fewer frequencies apart.";
+    let chosen = choice(ui, "Part", tip, spectrum.part(), &values);
+    commands.extend(chosen.map(SpectrumCommand::Part).map(Command::Spectrum));
+}
+
+fn words_of(part: SpectrumPart) -> &'static str {
+    match part {
+        SpectrumPart::Whole => "whole frame",
+        SpectrumPart::Pin => "around the pin",
+    }
+}
+
+/// Two lines below the plot: the wave that is pointed at, or what was transformed.
+fn words(ui: &mut Ui, found: &SpectrumFound, reading: Option<&SpectrumReading>) {
+    let whole = || {
+        let region = found.analysis.region();
+        let size = format!("{} \u{d7} {}", region.width, region.height);
+        let first = match &found.level {
+            Some(level) => format!("{level}: {size} texels"),
+            None => format!("{size} pixels from {}, {}", region.x, region.y),
+        };
+        [first, "Point at a frequency to see its wave".to_owned()]
+    };
+    for line in reading.map_or_else(whole, |reading| told(found, reading)) {
+        ui.add(egui::Label::new(RichText::new(line).small().weak()).truncate());
+    }
+}
+
+/// What is told of a wave.
+fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
+    let wave = &reading.wave;
+    let [x, y] = wave.frequency;
+    let is_texture = found.analysis.of() == SpectrumOf::Texture;
+    let unit = if is_texture { "texel" } else { "px" };
+    let length = wave.wavelength();
+    let digits = if length < 10.0 { 2 } else { 1 };
+    let length = if length.is_finite() {
+        format!("{length:.digits$} {unit} at {:.0}\u{b0}", wave.angle())
+    } else {
+        "no wave".to_owned()
+    };
+    let first = format!("{x:.3}, {y:.3} /{unit}: {length}, {:.0} dB", wave.decibels());
+    let place = |[x, y]: [f64; 2]| format!("{x:.2}, {y:.2}");
+    let alias = reading.source.filter(|(_, part)| *part >= ALIAS);
+    let second = match (reading.lands, alias) {
+        (Some(lands), _) if is_texture => format!(
+            "{} /px: too fine for pixels, seen at {}",
+            place(reading.in_pixels),
+            place(lands)
+        ),
+        (Some(lands), _) => format!("Too fine for pixels: seen at {}", place(lands)),
+        (None, Some((source, part))) => format!(
+            "{:.0} % alias of finer waves, most of {}",
+            part * 100.0,
+            place(source.frequency)
+        ),
+        (None, None) if is_texture => format!("{} /px", place(reading.in_pixels)),
+        (None, None) => "In the scene as it is".to_owned(),
+    };
+    [first, second]
+}
+
+/// What lightness and hues mean.
+fn legend(ui: &mut Ui, found: &SpectrumFound) {
+    let tip = match found.analysis.of() {
+        SpectrumOf::Scene => {
+            "Lighter is stronger, in dB below a wave from black to white. In colours are the waves outside of the box, which are \
+             too fine for pixels, and where they land in it with one sample for each."
+        }
+        SpectrumOf::Texture => {
+            "Lighter is stronger, in dB below a wave from black to white. The box holds what pixels can show of the texels; what \
+             is outside is in colours."
+        }
+        SpectrumOf::Frame | SpectrumOf::Difference => {
+            "Lighter is stronger, in dB below a wave from black to white. In colours is what the scene has too fine for pixels, and \
+             lands here."
+        }
+    };
+    let [low, high] = DECIBELS;
+    let response = ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.label(RichText::new(format!("{low:.0}")).small().weak());
+        let (rect, _) = ui.allocate_exact_size(vec2(45.0, LEGEND), Sense::hover());
+        let columns = 22_u8;
+        for column in 0..columns {
+            let part = f64::from(column) / f64::from(columns - 1);
+            let left = rect.left() + f32::from(column) * 2.0;
+            // The next one covers what is too wide, so that no seam is between them.
+            let bar = Rect::from_min_size(egui::pos2(left, rect.top()), vec2(3.0, LEGEND));
+            let color = rgb(scale_color(low + (high - low) * part, None));
+            ui.painter().rect_filled(bar, 0.0, color);
+        }
+        ui.label(RichText::new(format!("{high:.0} dB")).small().weak());
+        ui.add_space(4.0);
+        for (band, name) in Band::ALL.into_iter().zip(["across", "down", "both"]) {
+            let (rect, _) = ui.allocate_exact_size(vec2(9.0, LEGEND), Sense::hover());
+            let swatch = Rect::from_center_size(rect.center(), vec2(9.0, 9.0));
+            ui.painter().rect_filled(swatch, 1.0, rgb(band.color()));
+            ui.label(RichText::new(name).small().weak());
+        }
+    });
+    response.response.on_hover_text(tip);
+}
+
+/// An opaque `0xAARRGGBB`.
+pub(super) fn rgb(color: u32) -> Color32 {
+    let [_, r, g, b] = color.to_be_bytes();
+    Color32::from_rgb(r, g, b)
+}

@@ -1,0 +1,80 @@
+//! A spectrum under a hand: its choices, what is told of the wave that is pointed at, its stripes over the picture.
+
+use std::path::{Path, PathBuf};
+
+use glam::dvec2;
+
+use super::hands::{place_of, session};
+use super::small_windows::{click_on, says};
+use super::*;
+use crate::compare::SpectrumOf;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{InspectorCommand, SpectrumCommand, SpectrumPart, Toggle};
+
+const CLOSE: &str = "Close the spectrum";
+
+fn floor() -> Vec<PathBuf> {
+    vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/07_checker_floor.svg")]
+}
+
+fn open(session: &mut Session) {
+    session.command(Command::Spectrum(SpectrumCommand::Show(Toggle::On)));
+    session.settle();
+}
+
+#[test]
+fn spectrum_is_read_by_hand_and_closed_by_its_button() {
+    let mut session = session(floor(), [1280, 800]);
+    open(&mut session);
+    assert!(says(&mut session, "512 \u{d7} 512 pixels from"), "what was transformed");
+    click_on(&mut session, "Spectrum of: scene");
+    session.settle();
+    assert_eq!(session.viewer.spectrum().of(), SpectrumOf::Scene, "another");
+    let middle = place_of(&mut session, "Strength of each frequency") + dvec2(14.0, -7.0);
+    session.pointer(Some(middle + dvec2(0.0, -80.0)));
+    session.settle();
+    assert!(says(&mut session, "Too fine for pixels: seen at"), "outside of the box");
+    session.pointer(Some(middle + dvec2(3.0, 12.0)));
+    session.settle();
+    assert!(!says(&mut session, "Too fine for pixels"), "inside");
+    assert!(says(&mut session, " dB"), "a wave");
+    click_on(&mut session, "Part: around the pin");
+    session.settle();
+    assert_eq!(session.viewer.spectrum().part(), SpectrumPart::Pin, "a part of it");
+    assert!(says(&mut session, "128 \u{d7} 128 pixels from"), "so many");
+    click_on(&mut session, CLOSE);
+    assert!(!session.viewer.spectrum().is_open(), "closed");
+}
+
+#[test]
+fn spectrum_of_a_texture_is_that_of_the_pin() {
+    let mut session = session(floor(), [1280, 800]);
+    session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Texture)));
+    session.command(Command::Inspector(InspectorCommand::Pin([300, 60])));
+    session.settle();
+    assert!(says(&mut session, "shows no texture"), "nothing is there");
+    session.command(Command::Inspector(InspectorCommand::Pin([500, 500])));
+    session.settle();
+    assert!(says(&mut session, "level 0 of checker.png"), "the floor");
+}
+
+#[test]
+fn card_of_a_spectrum_finds_room_in_any_window() {
+    for window in [[640, 480], [800, 600], [1280, 800], [1920, 1080]] {
+        let mut session = session(floor(), window);
+        open(&mut session);
+        for pin in [None, Some([300, 300])] {
+            if let Some(pin) = pin {
+                session.command(Command::Inspector(InspectorCommand::Pin(pin)));
+                session.settle();
+            }
+            let close = place_of(&mut session, CLOSE);
+            let plot = place_of(&mut session, "Strength of each frequency");
+            for at in [close, plot] {
+                let [width, height] = window.map(f64::from);
+                let inside = (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y);
+                assert!(inside, "{at} in {window:?}, pinned {pin:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! `rasterscope spectrum`: the waves of a picture, and which of them are aliases.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::program::{done, run};
+use crate::support::refusal::assert_refused;
+
+/// Upright stripes of a triangle wave, 0.7 periods in a unit, which is a pixel.
+const STRIPES: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="160">
+  <linearGradient id="g" gradientUnits="userSpaceOnUse" x1="0" x2="0.7142857" spreadMethod="reflect">
+    <stop offset="0" stop-color="#000"/><stop offset="1" stop-color="#fff"/>
+  </linearGradient>
+  <rect width="200" height="160" fill="url(#g)"/>
+</svg>"##;
+const VIEW: &[&str] = &["--size=200x160", "--view=canvas"];
+
+/// The object of `--json` about the stripes.
+fn report(options: &[&str]) -> serde_json::Value {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    let words = [&["spectrum", "stripes.svg", "--json"], VIEW, options].concat();
+    serde_json::from_str(&done(folder.path(), &words)).unwrap()
+}
+
+fn numbers(value: &serde_json::Value) -> [f64; 2] {
+    [0, 1].map(|i| value[i].as_f64().unwrap())
+}
+
+fn assert_near(found: [f64; 2], expected: [f64; 2], what: &str) {
+    let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+    assert!(off < 0.006, "{what}: {found:?} for {expected:?}");
+}
+
+#[test]
+fn spectrum_tells_an_alias_and_whence_it_is() {
+    let frame = report(&[]);
+    let peak = &frame["peaks"][0];
+    assert_near(numbers(&peak["frequency"]), [0.3, 0.0], "folded");
+    let [x, y] = numbers(&peak["from"]);
+    assert_near([x.abs(), y], [0.7, 0.0], "its source");
+    assert!(peak["alias"].as_f64().unwrap() > 0.9, "wholly: {peak}");
+    assert!((peak["wavelength"].as_f64().unwrap() - 1.0 / 0.3).abs() < 0.1, "{peak}");
+    let scene = report(&["--of=scene"]);
+    assert!((scene["reach"].as_f64().unwrap() - 1.5).abs() < 1e-9, "{scene}");
+    let peak = &scene["peaks"][0];
+    assert_near(numbers(&peak["frequency"]), [0.7, 0.0], "before sampling");
+    assert_near(numbers(&peak["seen_at"]), [-0.3, 0.0], "where it lands");
+    let smooth = report(&["--sample-rate=256"]);
+    let weaker = frame["peaks"][0]["decibels"].as_f64().unwrap() - smooth["peaks"][0]["decibels"].as_f64().unwrap();
+    // sinc(0.7) in dB.
+    assert!((weaker - 8.68).abs() < 0.3, "the box takes {weaker} dB");
+}
+
+#[test]
+fn spectrum_of_the_difference_is_what_the_truth_has_not() {
+    let own = report(&["--of=difference", "--sample-rate=256"]);
+    assert_eq!(own["peaks"], serde_json::json!([]), "the truth itself");
+    let error = report(&["--of=difference"]);
+    assert_near(numbers(&error["peaks"][0]["frequency"]), [0.3, 0.0], "the alias");
+}
+
+#[test]
+fn spectrum_of_a_texture_is_in_texels() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/06_zone_texture.svg");
+    let words = [
+        "spectrum",
+        scene.to_str().unwrap(),
+        "--json",
+        "--of=texture",
+        "--size=256x256",
+    ];
+    let zero = done(Path::new(env!("CARGO_TARGET_TMPDIR")), &words);
+    let zero: serde_json::Value = serde_json::from_str(&zero).unwrap();
+    let level = zero["level"].as_str().unwrap();
+    assert!(level.starts_with("level 0 of "), "{level}");
+    assert!(
+        zero["peaks"][0]["in_pixels"].is_array(),
+        "and in pixels: {}",
+        zero["peaks"][0]
+    );
+    let coarse = [&words[..], &["--level-sampling=nearest"]].concat();
+    let coarse: serde_json::Value =
+        serde_json::from_str(&done(Path::new(env!("CARGO_TARGET_TMPDIR")), &coarse)).unwrap();
+    assert_ne!(coarse["level"], zero["level"], "the level that is read");
+}
+
+#[test]
+fn spectrum_writes_a_picture_and_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    let words = [
+        &[
+            "spectrum",
+            "stripes.svg",
+            "-o",
+            "s.png",
+            "--csv",
+            "s.csv",
+            "--region=20,10,128,128",
+            "--peaks=2",
+        ],
+        VIEW,
+    ]
+    .concat();
+    let text = done(folder.path(), &words);
+    assert!(
+        text.contains("frame: stripes.svg, 128 x 128 pixels from 20, 10"),
+        "{text}"
+    );
+    assert!(text.contains("alias of "), "{text}");
+    let picture = image::open(folder.path().join("s.png")).unwrap().into_rgba8();
+    let orange = picture.pixels().filter(|pixel| pixel[0] > 200 && pixel[2] < 60).count();
+    assert!(orange > 8, "{orange} pixels of the alias's band, besides the legend's");
+    let table = fs::read_to_string(folder.path().join("s.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[0].starts_with("across,down,wavelength,"), "{table}");
+    assert_eq!(lines.len(), 3, "two waves: {table}");
+    let columns = |line: &str| line.split(',').count();
+    assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{table}");
+    // Ours is replaced; another's is not.
+    done(folder.path(), &words);
+    fs::write(folder.path().join("s.csv"), "mine\n1\n").unwrap();
+    assert_refused(&run(folder.path(), &words), &words, &["s.csv", "--force"]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("s.csv")).unwrap(),
+        "mine\n1\n",
+        "untouched"
+    );
+}
+
+#[test]
+fn spectrum_says_what_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    for (options, cure) in [
+        (&["--region=200,0,10,10"][..], "from 0,0 to 199,159"),
+        (&["--of=texture"], "shows no texture"),
+        (&["-o", "s.jpg"], "ends in .png"),
+        (&["-o", "no/such/s.png"], "choose another place with -o"),
+    ] {
+        let words = [&["spectrum", "stripes.svg"], VIEW, options].concat();
+        assert_refused(&run(folder.path(), &words), &words, &[cure]);
+    }
+    let one = done(folder.path(), &["spectrum", "stripes.svg", "--size=1x1", "--of=scene"]);
+    assert!(one.contains("No waves"), "a single pixel: {one}");
+    let large = done(folder.path(), &["spectrum", "stripes.svg", "--size=900x300"]);
+    assert!(large.contains("at most 512 x 512 pixels are transformed"), "{large}");
+}

@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Commands with their examples: a line to type, and what it does.
-pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 13] = [
+pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 14] = [
     (
         "view",
         &[

@@ -17,9 +17,9 @@ mod samples;
 mod sheet;
 mod shrink;
 mod snippets;
-mod table;
 #[cfg(feature = "cli")]
 mod spectrum;
+mod table;
 mod tag;
 mod text;
 mod vacancy;
@@ -39,8 +39,8 @@ pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
 pub use shrink::shrunk;
 pub use snippets::{Figure, html, latex, markdown};
-pub use table::{Table, TableFormat};
 #[cfg(feature = "cli")]
 pub use spectrum::draw_spectrum;
+pub use table::{Table, TableFormat};
 pub use tag::{Tag, add_tags, tag_unit};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

@@ -12,16 +12,16 @@
 //! control                               what commands and results do to several parts, through structs that borrow them
 //! state                                 the viewer: its parts side by side
 //! command                               what a user can do, as data
-//! lesson, board, export, profile,       the parts, each with its own state;
-//! lesson, export, spectrum, profile,    the parts, each with its own state;
+//! lesson, board, export, spectrum,     the parts, each with its own state;
+//! profile,                              none of them knows the viewer
 //! inspector, ab, frames, library,       none of them knows the viewer
 //! view, chrome
 //! settings, jobs, key_chords            what all of them use
 //! ```
 //!
 //! A part answers for itself: `viewer.scene_list().current()`, `viewer.ab().arrangement()`. What takes several parts is asked
-//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Boarded`] (several settings beside the truth),
-//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Spectral`] (a spectrum),
+//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile), [`Spectral`]
+//! (a spectrum), [`Boarded`] (several settings beside the truth),
 //! [`WindowContent`] and [`Recipes`].
 //!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
@@ -64,9 +64,7 @@ pub use command::key_bindings::Gesture;
 pub use command::spec::{Action, CommandSpec, Group};
 pub use command::{
     AbCommand, BoardCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand,
-    ProfileCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
-    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
-    SceneCommand, SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
+    ProfileCommand, SceneCommand, SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
 };
 pub use control::boarded::{Boarded, ShownTile};
 pub use control::both::Both;

@@ -129,7 +129,6 @@ pub(in crate::viewer) enum Finished {
     Contributed(Target, Box<Option<Contributions>>),
     Profiled(LineOfPicture, Option<Profile>),
     Board(BoardNews),
-    Transformed(SpectrumQuestion, Box<Option<SpectrumFound>>),
     Transformed(SpectrumQuestion, Option<Arc<SpectrumFound>>),
     Thumbnail(Thumbnail),
     Saved(Saved),

@@ -6,7 +6,6 @@ use clap::builder::PossibleValue;
 use super::sweep::Quality;
 use super::writeup::Assignment;
 use crate::color::ResolveSpace;
-use crate::compare::{Measure, ProfileChannel};
 use crate::compare::{Measure, ProfileChannel, SpectrumOf};
 use crate::figure::Ground;
 use crate::viewer::{BoardSort, Theme};
@@ -33,7 +32,7 @@ named_values!(
     Theme,
     Measure,
     ProfileChannel,
+    SpectrumOf,
     Ground,
     Assignment
 );
-named_values!(Quality, Theme, Measure, ProfileChannel, SpectrumOf, Ground, Assignment);

@@ -2,18 +2,14 @@
 
 use crate::viewer::{
     AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand,
-    SheetCommand, ViewCommand, WindowCommand,
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand, SheetCommand,
-    SpectrumCommand, SpectrumPart, ViewCommand, WindowCommand,
+    SheetCommand, SpectrumCommand, SpectrumPart, ViewCommand, WindowCommand,
 };
 use std::borrow::Cow;
 use std::path::PathBuf;
 
 use crate::color::ResolveSpace;
-use crate::compare::{Measure, ProfileChannel};
-use crate::figure::{Ground, TableFormat};
 use crate::compare::{Measure, ProfileChannel, SpectrumOf};
-use crate::figure::Ground;
+use crate::figure::{Ground, TableFormat};
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::board::SIDES;
 use crate::viewer::board::numbers::BoardSort;

@@ -16,9 +16,7 @@ use crate::viewer::settings::picture::SettingChange;
 
 pub use parts::{
     AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
-    SceneCommand, SheetCommand, ViewCommand, WindowCommand,
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand, SceneCommand,
-    SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
+    SceneCommand, SheetCommand, SpectrumCommand, ViewCommand, WindowCommand,
 };
 
 /// One thing that a user can do, by the part of the viewer that it is about.

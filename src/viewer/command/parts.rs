@@ -5,10 +5,8 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use crate::color::ResolveSpace;
-use crate::compare::{Measure, ProfileChannel};
-use crate::figure::{PixelRect, TableFormat};
 use crate::compare::{Measure, ProfileChannel, SpectrumOf};
-use crate::figure::PixelRect;
+use crate::figure::{PixelRect, TableFormat};
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::board::numbers::BoardSort;
@@ -216,6 +214,8 @@ pub enum BoardCommand {
     Copy(TableFormat),
     /// Saves the board as a picture.
     Save,
+}
+
 /// The spectrum of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpectrumCommand {

@@ -154,8 +154,8 @@ impl Opening<'_> {
         if self.chrome.close_latest() {
             return true;
         }
-        if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() {
-        if self.scene_list.give_up_reading() || self.profiling.escape() || self.spectrum.escape() {
+        if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() || self.spectrum.escape()
+        {
             return true;
         }
         let mut context = ComparisonContext {

@@ -95,7 +95,6 @@ impl Viewer {
             Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
             Finished::Profiled(asked, found) => self.profiling.truth.finished(asked, found),
             Finished::Board(news) => self.board.measuring.take_in(news),
-            Finished::Transformed(asked, found) => self.spectrum.spectra.finished(asked, *found),
             Finished::Transformed(asked, found) => self.spectrum.spectra.finished(asked, found),
             Finished::Thumbnail(thumbnail) => self.scene_list.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.export.saver.take_in(saved, &mut self.chrome.messages),

@@ -225,6 +225,11 @@ fn overlay_board_compares_settings() {
         scale: 1.0,
         theme: Theme::Light,
         steps: "panel off; view 256,256,1; rate 16; truth-space linear; board-vary pattern grid,sobol,r2; wait 6000",
+    };
+    let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
+    assert_eq!(found.err(), None, "as it was looked at");
+}
+
 /// The waves of a scene, with one too fine for pixels that is pointed at, and its stripes as pixels see them.
 #[test]
 fn overlay_shows_a_spectrum() {

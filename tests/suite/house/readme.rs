@@ -118,8 +118,7 @@ fn readme_names_every_option_and_scene_folder() {
     text.extend(pages().into_iter().map(|(_, page)| page));
     for command in [
         "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench", "pattern",
-        "profile", "board",
-        "profile", "spectrum",
+        "profile", "spectrum", "board",
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
             .args([command, "--help"])

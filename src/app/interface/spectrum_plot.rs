@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+    Align2, Color32, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::scenes::image_of;
@@ -82,7 +83,7 @@ impl SpectrumPlot {
         if let Some(reading) = &reading {
             axes.mark(ui, reading, found);
         }
-        response.accessible_name("Strength of each frequency");
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Strength of each frequency"));
         reading
     }
 

@@ -139,7 +139,7 @@ impl BoardMeasuring {
         let now = self.found.as_ref().and_then(|found| found.truth.as_deref());
         let before = || self.before.as_ref().and_then(|found| found.truth.as_deref());
         let stale = now.is_none();
-        Some((now.or_else(before)?, stale))
+        Some((now.or_else(before)?, stale || self.wanted.is_none()))
     }
 
     /// Grows with every change of what is found.

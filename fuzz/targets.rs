@@ -242,7 +242,7 @@ impl Choices {
         RenderSettings {
             sample_rate: SampleRate::new(rate).expect("a square number"),
             pattern: self.among(SamplePattern::ALL.as_slice()),
-            pixel_sampling: self.among(&[PixelSampling::Nearest, PixelSampling::Bilinear]),
+            pixel_sampling: self.among(&PixelSampling::ALL),
             level_sampling: self.among(&[LevelSampling::Zero, LevelSampling::Nearest, LevelSampling::Linear]),
             anisotropy: Anisotropy::new(taps).expect("a number of taps"),
             rules: self.among(Rules::ALL.as_slice()),

@@ -196,14 +196,15 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         .into_iter()
         .filter(|anisotropy| *anisotropy > own.anisotropy)
         .map(|anisotropy| (anisotropy.taps().to_string(), RenderSettings { anisotropy, ..*own }));
-    let bilinear = PixelSampling::Bilinear;
-    let pixel = (own.pixel_sampling != bilinear).then(|| {
-        let settings = RenderSettings {
-            pixel_sampling: bilinear,
-            ..*own
-        };
-        (bilinear.name().to_owned(), settings)
-    });
+    let pixel = PixelSampling::ALL
+        .into_iter()
+        .filter(|sampling| *sampling != PixelSampling::Nearest && *sampling != own.pixel_sampling)
+        .map(|pixel_sampling| {
+            (
+                pixel_sampling.name().to_owned(),
+                RenderSettings { pixel_sampling, ..*own },
+            )
+        });
     let automatic = LevelOfDetail {
         fixed: None,
         ..own.detail
@@ -248,7 +249,7 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
             Setting::LodPer,
             detail("sample", own.detail != per_sample && !own.shading.is_once(), per_sample),
         ),
-        (Setting::PixelSampling, pixel.into_iter().collect()),
+        (Setting::PixelSampling, pixel.collect()),
     ]
 }
 

@@ -92,7 +92,7 @@ fn texture_lines([u, v]: [f64; 2], taps: &[Tap], texels: &[Texel]) -> Vec<String
         lines.push(format!("          and {rest} more points"));
     }
     let mut heaviest = texels.to_vec();
-    heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    heaviest.sort_by(|a, b| b.weight.abs().total_cmp(&a.weight.abs()));
     for texel in heaviest.iter().take(MOST_TEXELS) {
         let [x, y] = texel.at;
         let hex = hex(straight(texel.color));
@@ -109,7 +109,30 @@ fn texture_lines([u, v]: [f64; 2], taps: &[Tap], texels: &[Texel]) -> Vec<String
         let weight = rest.iter().map(|texel| texel.weight).sum();
         lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
     }
+    lines.extend(clamped(texels.iter().map(|texel| (texel.color, texel.weight))));
     lines
+}
+
+/// What was cut off of a sum of premultiplied texels, of which some weigh less than nothing: nothing where it is a colour.
+fn clamped(texels: impl Iterator<Item = ([u8; 4], f64)>) -> Option<String> {
+    let mut sum = [0.0; 4];
+    for (color, weight) in texels {
+        for (sum, channel) in sum.iter_mut().zip(color) {
+            *sum += f64::from(channel) * weight;
+        }
+    }
+    let alpha = sum[3].clamp(0.0, 255.0);
+    let cut: Vec<String> = ["red", "green", "blue", "alpha"]
+        .into_iter()
+        .zip(sum)
+        .zip([alpha, alpha, alpha, 255.0])
+        .filter_map(|((name, sum), most)| {
+            let kept = sum.clamp(0.0, most);
+            // Less is rounding.
+            ((kept - sum).abs() > 0.01).then(|| format!("{name} {sum:.2} to {kept:.2}"))
+        })
+        .collect();
+    (!cut.is_empty()).then(|| format!("clamped   {}: no colour is beyond", cut.join(", ")))
 }
 
 /// A premultiplied colour as a file has it.
@@ -124,6 +147,27 @@ fn straight([r, g, b, a]: [u8; 4]) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sums_that_are_no_colour_are_told() {
+        let sum = |texels: &[([u8; 4], f64)]| clamped(texels.iter().copied());
+        let (white, black, clear) = ([255; 4], [0, 0, 0, 255], [0; 4]);
+        assert_eq!(sum(&[(white, 0.5), (black, 0.5)]), None, "a mean");
+        assert_eq!(
+            sum(&[(white, 1.125), (black, -0.125)]).as_deref(),
+            Some("clamped   red 286.88 to 255.00, green 286.88 to 255.00, blue 286.88 to 255.00: no colour is beyond")
+        );
+        assert_eq!(
+            sum(&[(white, -0.1), (black, 0.6), (clear, 0.5)]).as_deref(),
+            Some("clamped   red -25.50 to 0.00, green -25.50 to 0.00, blue -25.50 to 0.00: no colour is beyond")
+        );
+        let shining = sum(&[([100, 0, 0, 100], 1.0), ([0, 0, 0, 100], -0.2), (clear, 0.2)]);
+        assert_eq!(
+            shining.as_deref(),
+            Some("clamped   red 100.00 to 80.00: no colour is beyond"),
+            "a channel is at most alpha"
+        );
+    }
 
     #[test]
     fn texels_are_told_as_files_have_them() {

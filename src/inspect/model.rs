@@ -427,7 +427,7 @@ pub struct TileTexel {
     pub at: [u32; 2],
     /// Straight red, green, blue, alpha.
     pub color: [u8; 4],
-    /// Its part of the colour that was read, `0.0..=1.0`.
+    /// Its part of the colour that was read; cubic kernels weigh some texels below zero.
     pub weight: f64,
 }
 
@@ -471,7 +471,7 @@ pub struct Texel {
     pub at: [u32; 2],
     /// Premultiplied red, green, blue, alpha.
     pub color: [u8; 4],
-    /// Its part of the colour that was read, `0.0..=1.0`.
+    /// Its part of the colour that was read; cubic kernels weigh some texels below zero.
     pub weight: f64,
 }
 
@@ -484,7 +484,7 @@ pub struct Texture {
     pub index: u32,
     /// Width and height of the base level, in texels.
     pub size: [u32; 2],
-    /// How it is read inside a level: `nearest` or `bilinear`.
+    /// How it is read inside a level: `nearest`, `bilinear`, or by the cubic kernel `catmull-rom`, `b-spline` or `mitchell`.
     pub pixel_sampling: &'static str,
     /// Whether the document asks for that (`image-rendering`), so that the setting has no effect.
     #[serde(skip_serializing_if = "std::ops::Not::not")]

@@ -297,6 +297,14 @@ impl Texture {
 }
 
 impl Texture {
+    /// How it is read inside a level.
+    fn sampling_words(&self) -> String {
+        match self.pixel_sampling {
+            own @ ("nearest" | "bilinear") => own.to_owned(),
+            cubic => format!("by the cubic kernel {cubic}"),
+        }
+    }
+
     pub(super) fn lines(&self) -> Vec<String> {
         let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
         let [width, height] = self.size;
@@ -306,7 +314,7 @@ impl Texture {
             format!(
                 "texture {} of {width} x {height} texels, read {}{}",
                 self.name,
-                self.pixel_sampling,
+                self.sampling_words(),
                 if self.asked { " as image-rendering asks" } else { "" }
             ),
             format!(

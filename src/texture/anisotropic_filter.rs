@@ -74,7 +74,7 @@ fn add<S: Simd>(
     // Without its fraction a coordinate weighs its own texel alone.
     let kept = match plan.pixel {
         PixelSampling::Nearest => number(-1 << FRACTION_BITS),
-        PixelSampling::Bilinear => number(-1),
+        _ => number(-1),
     };
     let mut cells = Cells::EMPTY;
     for tap in 0..plan.line.taps.count {

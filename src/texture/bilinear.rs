@@ -1,10 +1,11 @@
-//! The four texels around a point and their weights, in integers: the arithmetic of texture filtering, one point at a
-//! time. The kernels do the same for many points at once.
+//! The texels around a point and their weights, in integers: the arithmetic of texture filtering, one point at a time. The
+//! kernels do the same for many points at once.
 //!
 //! A coordinate is rounded to [`FRACTION_BITS`] fractional bits of a texel. From there on everything is exact integer
 //! arithmetic, so that no compiler, processor or vector width can change a byte. The weights of all texels of a sample
 //! sum to [`MASS`] exactly: what is left over goes to the last one. So a constant texture stays constant.
 
+use super::cubic::CubicWeights;
 use super::{MipLevel, PixelSampling};
 
 /// Fractional bits of a texel coordinate.
@@ -26,7 +27,7 @@ pub(super) const REACH: f64 = 16_384.0;
 pub(super) fn first_centre(pixel: PixelSampling) -> f64 {
     match pixel {
         PixelSampling::Nearest => 0.0,
-        PixelSampling::Bilinear => 0.5,
+        PixelSampling::Bilinear | PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => 0.5,
     }
 }
 
@@ -85,7 +86,7 @@ pub(super) fn per_tap(count: u32) -> f32 {
 
 /// `a b`, where `b` is a fraction of [`FRACTION_BITS`] bits, rounded to nearest.
 #[inline]
-fn share(a: i32, b: i32) -> i32 {
+pub(super) fn share(a: i32, b: i32) -> i32 {
     (a * b + (1 << (FRACTION_BITS - 1))) >> FRACTION_BITS
 }
 
@@ -108,8 +109,16 @@ pub(super) fn add(level: &MipLevel, pixel: PixelSampling, at: [u32; 2], mass: i3
     });
 }
 
+/// Sums of `count` taps as what a premultiplied colour can be: alpha at most all of it, and no channel above alpha. Only weights
+/// below zero take them elsewhere.
+#[inline]
+pub(super) fn clamped([r, g, b, alpha]: [i32; 4], count: u32) -> [i32; 4] {
+    let alpha = alpha.clamp(0, i32::from(u8::MAX) * MASS * count.cast_signed());
+    [r.clamp(0, alpha), g.clamp(0, alpha), b.clamp(0, alpha), alpha]
+}
+
 /// Calls `read` with column, row and weight of each texel around the point `(x, y)`, in fixed point; the weights sum to
-/// `mass`. A texel beyond the level, which weighs nothing then, may be among them.
+/// `mass`. Texels beyond the level may be among them: the nearest one of the level stands in.
 #[inline]
 pub(super) fn each(pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, mut read: impl FnMut(i32, i32, i32)) {
     const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
@@ -122,6 +131,18 @@ pub(super) fn each(pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, mut read: 
             read(column + 1, row, weights[1]);
             read(column, row + 1, weights[2]);
             read(column + 1, row + 1, weights[3]);
+        }
+        PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => {
+            let Some(weights) = pixel.cubic().map(CubicWeights::new) else {
+                return;
+            };
+            let rows = weights.shares((y & FRACTION).cast_signed(), mass);
+            for (row, share) in (row - 1..).zip(rows) {
+                let columns = weights.shares((x & FRACTION).cast_signed(), share);
+                for (column, weight) in (column - 1..).zip(columns) {
+                    read(column, row, weight);
+                }
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::bilinear::mass;
-use super::{Footprint, PixelSampling, Reading, SamplingSettings, Taps};
+use super::{Cubic, Footprint, PixelSampling, Reading, SamplingSettings, Taps};
 use super::{MipLevel, MipPyramid, bilinear};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
@@ -48,7 +48,8 @@ impl<'a> Sampler<'a> {
     /// The premultiplied colour at `(u, v)`, channels in `0.0..=255.0`. Coordinates outside `0..=1` read the border.
     ///
     /// Under the standard rules this is what [`super::Filter`] gives for a fragment there, to the last bit. The course's
-    /// rules know no anisotropic filtering; there it is the mean of what they read at the taps.
+    /// rules know no anisotropic filtering; there it is the mean of what they read at the taps. They know no cubic kernels
+    /// either; there texels are weighed by them around the point that those rules look at.
     pub fn sample(&self, u: f32, v: f32) -> [f32; 4] {
         let at = DVec2::new(f64::from(u), f64::from(v));
         match self.rules {
@@ -59,13 +60,14 @@ impl<'a> Sampler<'a> {
                     .map_or((self.finer, 0), |(level, weight)| (level, mass(weight)));
                 self.add(self.finer, at, bilinear::MASS - mass, &mut sums);
                 self.add(level, at, mass, &mut sums);
+                let sums = bilinear::clamped(sums, self.taps.count);
                 let stored = match self.taps.count {
                     1 => sums.map(bilinear::to_channel),
                     count => sums.map(|sum| bilinear::mean(sum, count)),
                 };
                 stored.map(|channel| f32::from(channel) / f32::from(Premultiplied16::PER_BYTE))
             }
-            Rules::Course if self.taps.count == 1 => self.sample_levels(u, v),
+            Rules::Course if self.taps.count == 1 => self.kept(self.sample_levels(u, v)),
             Rules::Course => {
                 let mut sums = [0.0; 4];
                 for tap in 0..self.taps.count {
@@ -74,7 +76,7 @@ impl<'a> Sampler<'a> {
                         *sum += channel;
                     }
                 }
-                sums.map(|sum| sum / self.taps.count as f32)
+                self.kept(sums.map(|sum| sum / self.taps.count as f32))
             }
         }
     }
@@ -97,7 +99,16 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// By the course's rules, with one tap.
+    /// What a premultiplied colour can be, where a cubic kernel leads beyond that.
+    fn kept(&self, [r, g, b, alpha]: [f32; 4]) -> [f32; 4] {
+        if self.pixel.cubic().is_none() {
+            return [r, g, b, alpha];
+        }
+        let alpha = alpha.clamp(0.0, 255.0);
+        [r.clamp(0.0, alpha), g.clamp(0.0, alpha), b.clamp(0.0, alpha), alpha]
+    }
+
+    /// By the course's rules, with one tap, not clamped yet.
     fn sample_levels(&self, u: f32, v: f32) -> [f32; 4] {
         let fine = course_level(self.finer, self.pixel, [u, v]);
         match self.coarser {
@@ -108,38 +119,56 @@ impl<'a> Sampler<'a> {
 }
 
 /// The point of a level that the course's rules look at, in texels. For [`PixelSampling::Nearest`] texel `i` lies from `i` to
-/// `i + 1`, for [`PixelSampling::Bilinear`] its centre at `i`. Texels stand `1 / (w - 1)` apart.
+/// `i + 1`, for all others its centre at `i`. Texels stand `1 / (w - 1)` apart.
 pub(super) fn course_point(level: &MipLevel, pixel: PixelSampling, [u, v]: [f32; 2]) -> [f32; 2] {
     let (right, bottom) = (level.width() as f32 - 1.0, level.height() as f32 - 1.0);
     match pixel {
         PixelSampling::Nearest => [(u * right + 0.5).max(0.0), (v * bottom + 0.5).max(0.0)],
         // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
-        PixelSampling::Bilinear => [(u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom)],
+        _ => [(u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom)],
     }
 }
 
 /// Where `(u, v)` lies in a level: the texel that contains the point for [`PixelSampling::Nearest`]; the upper left of the
-/// four around the point and how far right and down from its centre the point is, in texels, for
-/// [`PixelSampling::Bilinear`].
+/// four around the point and how far right and down from its centre the point is, in texels, for all others.
 pub(super) fn course_place(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2]) -> ([i32; 2], [f32; 2]) {
     let [x, y] = course_point(level, pixel, uv);
     let (left, top) = (truncate(x), truncate(y));
     match pixel {
         PixelSampling::Nearest => ([left, top], [0.0; 2]),
-        PixelSampling::Bilinear => ([left, top], [x - left as f32, y - top as f32]),
+        _ => ([left, top], [x - left as f32, y - top as f32]),
     }
 }
 
-/// The texel there, or the four texels around the point, weighted by distance.
+/// The texel there, or the texels around the point, weighted by distance.
 fn course_level(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2]) -> [f32; 4] {
     let ([left, top], [s, t]) = course_place(level, pixel, uv);
     let texel = |x, y| level.texel(x, y).map(f32::from);
     if pixel == PixelSampling::Nearest {
         return texel(left, top);
     }
+    if let Some(cubic) = pixel.cubic() {
+        // Differences from one of them, so that a constant texture stays constant.
+        let [middle, mut sum] = [texel(left, top); 2];
+        for (x, y, weight) in course_weights(cubic, [s, t]) {
+            let other = texel(left.saturating_add(x), top.saturating_add(y));
+            sum = std::array::from_fn(|i| sum[i] + (other[i] - middle[i]) * weight);
+        }
+        return sum;
+    }
     let upper = lerp(texel(left, top), texel(left + 1, top), s);
     let lower = lerp(texel(left, top + 1), texel(left + 1, top + 1), s);
     lerp(upper, lower, t)
+}
+
+/// Column and row of each texel around a point, counted from the upper left of the four next to it, and its weight.
+#[expect(clippy::cast_possible_truncation, reason = "the course calculates in 32 bits")]
+pub(super) fn course_weights(cubic: Cubic, [s, t]: [f32; 2]) -> impl Iterator<Item = (i32, i32, f32)> {
+    let (columns, rows) = (cubic.weights(s.into()), cubic.weights(t.into()));
+    (0..4).zip(rows).flat_map(move |(y, row)| {
+        let weight = move |(x, column): (i32, f64)| (x - 1, y - 1, (column * row) as f32);
+        (0..4).zip(columns).map(weight)
+    })
 }
 
 /// `a + (b - a) t`: exact at `t = 0` and for equal colours, so that a constant texture stays constant.

@@ -4,11 +4,12 @@ use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::bilinear::mass;
+use super::cubic::CubicWeights;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
-use super::{anisotropic_filter, bilinear, pixel_filter, sample_filter};
+use super::{anisotropic_filter, bilinear, cubic_filter, pixel_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -53,7 +54,7 @@ struct FilterLevel<'a> {
     /// Its part of [`bilinear::MASS`].
     mass: i32,
     /// Coordinates at the pivot, in texels; whole numbers are corners of texels for [`PixelSampling::Nearest`], their
-    /// centres for [`PixelSampling::Bilinear`].
+    /// centres for all others.
     at_pivot: DVec2,
     /// Change per pixel.
     dx: DVec2,
@@ -133,6 +134,7 @@ impl<'a> Filter<'a> {
         let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
         Plan {
             pixel: self.pixel,
+            cubic: self.pixel.cubic().map(CubicWeights::new),
             first: origin * side + 0.5 - pivot,
             line: TapLine {
                 taps: self.taps,
@@ -197,7 +199,9 @@ impl<'a> FilterLevel<'a> {
 // Inlined into its callers its loops take 3 % more instructions.
 #[inline(never)]
 fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    if plan.line.taps.count == 1 {
+    if let Some(cubic) = &plan.cubic {
+        dispatch!(level, simd => cubic_filter::filter_with(simd, plan, cubic, points, out));
+    } else if plan.line.taps.count == 1 {
         dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));
     } else {
         dispatch!(level, simd => anisotropic_filter::filter_with(simd, plan, points, out));

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::cubic::CubicWeights;
 use super::{MipLevel, PixelSampling, Taps};
 
 /// Some pixels, and which of their samples count.
@@ -49,6 +50,8 @@ pub(super) struct TapLine {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan<'a> {
     pub(super) pixel: PixelSampling,
+    /// What that weighs texels by, where it is cubic.
+    pub(super) cubic: Option<CubicWeights>,
     /// Sample `[0, 0]` relative to the pivot, in samples.
     pub(super) first: DVec2,
     pub(super) line: TapLine,

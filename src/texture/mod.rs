@@ -4,6 +4,8 @@ mod anisotropic_filter;
 mod anisotropy;
 mod bilinear;
 mod course_sampler;
+mod cubic;
+mod cubic_filter;
 mod decode;
 mod detail_settings;
 mod filter;
@@ -28,6 +30,7 @@ mod uv_map;
 
 pub use anisotropy::{Anisotropy, Taps};
 pub use course_sampler::Sampler;
+pub use cubic::Cubic;
 pub use decode::{DecodeError, Memory, Run, decode_rows};
 pub use detail_settings::{Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LodBias};
 pub use filter::{Filter, SampleGrid};
@@ -53,6 +56,12 @@ pub enum PixelSampling {
     Nearest,
     /// The four texels whose centres surround the point, weighted by distance.
     Bilinear,
+    /// The 4 x 4 texels around the point by the cubic of Catmull and Rom, which is Keys's: through the texels, sharp, and rings.
+    CatmullRom,
+    /// The same by the cubic B-spline: never below zero, and soft.
+    BSpline,
+    /// The same by the cubic that Mitchell and Netravali recommend: a little of both.
+    Mitchell,
 }
 
 /// Which mip level, or levels, are read.
@@ -82,13 +91,32 @@ pub struct Texture {
 
 impl PixelSampling {
     /// Every value, in the order of menus and of the key that steps through them.
-    pub const ALL: [Self; 2] = [Self::Nearest, Self::Bilinear];
+    pub const ALL: [Self; 5] = [
+        Self::Nearest,
+        Self::Bilinear,
+        Self::CatmullRom,
+        Self::BSpline,
+        Self::Mitchell,
+    ];
 
     /// The name used in the command line and the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Nearest => "nearest",
             Self::Bilinear => "bilinear",
+            Self::CatmullRom => "catmull-rom",
+            Self::BSpline => "b-spline",
+            Self::Mitchell => "mitchell",
+        }
+    }
+
+    /// The kernel that weighs texels, where that is a cubic one.
+    pub const fn cubic(self) -> Option<Cubic> {
+        match self {
+            Self::Nearest | Self::Bilinear => None,
+            Self::CatmullRom => Some(Cubic::CATMULL_ROM),
+            Self::BSpline => Some(Cubic::B_SPLINE),
+            Self::Mitchell => Some(Cubic::MITCHELL),
         }
     }
 }

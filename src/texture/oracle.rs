@@ -30,6 +30,7 @@ pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
             bilinear::add(level.level, plan.pixel, place, level.mass, &mut sums);
         }
     }
+    let sums = bilinear::clamped(sums, count);
     Premultiplied16(match count {
         1 => sums.map(bilinear::to_channel),
         _ => sums.map(|sum| bilinear::mean(sum, count)),
@@ -49,9 +50,13 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
                 let offset = axis.tap(&plan.line, tap).clamp(-bilinear::REACH, bilinear::REACH);
                 (at.clamp(-bilinear::REACH, axis.last + bilinear::REACH) + offset).clamp(0.0, axis.last)
             });
-            for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-                let (column, row) = (x.floor() + column, y.floor() + row);
-                let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
+            for (right, down) in (0..16).map(|i| (f64::from(i % 4 - 1), f64::from(i / 4 - 1))) {
+                let (column, row) = (x.floor() + right, y.floor() + down);
+                let kernel = |distance: f64| match plan.pixel.cubic() {
+                    Some(cubic) => cubic.weight(distance.abs()),
+                    None => (1.0 - distance.abs()).max(0.0),
+                };
+                let weight = kernel(x - column) * kernel(y - row);
                 let texel = level.level.texel(column as i32, row as i32);
                 for (sum, channel) in sums.iter_mut().zip(texel) {
                     *sum += f64::from(channel) * weight * mass;
@@ -59,7 +64,9 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
             }
         }
     }
-    sums
+    let [r, g, b, alpha] = sums;
+    let alpha = alpha.clamp(0.0, 255.0);
+    [r, g, b, 255.0].map(|channel| channel.clamp(0.0, alpha))
 }
 
 /// The sum over the samples of a pixel that `covered` says; what the kernel does for many, by tents instead of tails.
@@ -156,11 +163,12 @@ pub(super) fn pyramid(u: &mut Unstructured<'_>) -> Result<MipPyramid> {
             bits ^= bits >> 15;
             bits = bits.wrapping_mul(0x85EB_CA77);
             bits ^= bits >> 13;
-            if rough {
+            let [r, g, b, alpha] = if rough {
                 bits.to_le_bytes().map(|byte| if byte > 127 { 255 } else { 0 })
             } else {
                 bits.to_le_bytes()
-            }
+            };
+            [r.min(alpha), g.min(alpha), b.min(alpha), alpha]
         })
         .collect();
     Ok(MipPyramid::build(MipLevel::new(width, height, texels)))

@@ -10,13 +10,14 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 
 use super::bilinear::{MASS, MASS_BITS};
+use super::cubic::CubicWeights;
 use super::filter_plan::{PixelList, Plan};
 use super::nearest_sums::{self, FEW, MANY, NearestSamples};
 use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
-use super::simd_channels::{self, Spread};
+use super::simd_channels::{self, FromColors, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
-use super::{PixelSampling, anisotropic_filter, sample_filter};
+use super::{PixelSampling, anisotropic_filter, cubic_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -55,11 +56,54 @@ pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>,
     if plan.pixel == PixelSampling::Nearest && sum_nearest(level, plan, side, list, sums) {
         return;
     }
-    match Footings::of_plan(plan, scale) {
-        Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
-        None if taps == 1 => dispatch!(level, simd => sum_samples::<_, false>(simd, plan, scale, list, sums)),
-        None => dispatch!(level, simd => sum_samples::<_, true>(simd, plan, scale, list, sums)),
+    let samples = Samples { plan, scale, list };
+    match (Footings::of_plan(plan, scale), &plan.cubic) {
+        (Some(footings), _) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
+        (None, Some(cubic)) => dispatch!(level, simd => sum_samples(simd, samples, cubic, sums)),
+        (None, None) if taps == 1 => dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums)),
+        (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
     }
+}
+
+/// How samples are filtered one by one.
+trait FilterSamples {
+    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]);
+}
+
+/// With one tap each.
+struct OneTap;
+
+/// With several taps each.
+struct SeveralTaps;
+
+impl FilterSamples for OneTap {
+    #[inline(always)]
+    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
+        sample_filter::filter_with(simd, plan, points, out);
+    }
+}
+
+impl FilterSamples for SeveralTaps {
+    #[inline(always)]
+    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
+        anisotropic_filter::filter_with(simd, plan, points, out);
+    }
+}
+
+/// With any number of taps.
+impl FilterSamples for CubicWeights {
+    #[inline(always)]
+    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
+        cubic_filter::filter_with(simd, plan, self, points, out);
+    }
+}
+
+/// The samples of a list's pixels.
+#[derive(Clone, Copy)]
+struct Samples<'s> {
+    plan: &'s Plan<'s>,
+    scale: Scale,
+    list: PixelList<'s>,
 }
 
 /// Fetches a texel for every sample, where that is all; whether it is.
@@ -87,13 +131,12 @@ fn sum_nearest_of<const N: usize>(
     true
 }
 
-/// Filters every sample, with one tap or several.
+/// Filters every sample.
 #[inline(always)]
-fn sum_samples<S: Simd, const TAPS: bool>(
+fn sum_samples<S: Simd>(
     simd: S,
-    plan: &Plan<'_>,
-    scale: Scale,
-    list: PixelList<'_>,
+    Samples { plan, scale, list }: Samples<'_>,
+    filter: &impl FilterSamples,
     sums: &mut [[u32; 4]],
 ) {
     let mut inside = [[0; 2]; MAX_SIDE * MAX_SIDE];
@@ -112,11 +155,7 @@ fn sum_samples<S: Simd, const TAPS: bool>(
         batch.fill(list, inside, scale.side, &mut next);
         let points = &batch.points[..batch.count];
         let colors = &mut colors[..batch.count];
-        if TAPS {
-            anisotropic_filter::filter_with(simd, plan, points, colors);
-        } else {
-            sample_filter::filter_with(simd, plan, points, colors);
-        }
+        filter.filter(simd, plan, points, colors);
         batch.add_to(sums, colors);
     }
 }

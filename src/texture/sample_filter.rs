@@ -46,7 +46,7 @@ pub(super) struct Source<'a> {
     mass: i32,
 }
 
-/// Filters samples of one tap each.
+/// Filters samples of one tap each, which read the nearest texel or the four around them.
 #[inline(always)]
 pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     let mut cells = [Cells::EMPTY; 2];
@@ -59,8 +59,8 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, poin
         match (plan.pixel, coarser) {
             (PixelSampling::Nearest, None) => nearest(simd, finer, out),
             (PixelSampling::Nearest, Some(coarser)) => nearest_mixed(simd, finer, coarser, out),
-            (PixelSampling::Bilinear, None) => bilinear(simd, spread, finer, out),
-            (PixelSampling::Bilinear, Some(coarser)) => trilinear(simd, spread, [finer, coarser], out),
+            (_, None) => bilinear(simd, spread, finer, out),
+            (_, Some(coarser)) => trilinear(simd, spread, [finer, coarser], out),
         }
     }
 }
@@ -314,16 +314,18 @@ mod tests {
     }
 
     #[test]
-    fn points_are_within_a_tenth_of_a_byte_of_the_definition() {
+    fn points_are_within_a_part_of_a_byte_of_the_definition() {
         let mut worst = 0.0_f64;
         arbtest::arbtest(|u| {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
             let grid = oracle::grid(u, &map)?;
             let settings = SamplingSettings {
-                pixel: PixelSampling::Bilinear,
+                pixel: *u.choose(&PixelSampling::ALL[1..])?,
                 ..oracle::settings(u)?
             };
+            // Of sixteen weights that are rounded, more is left over than of four.
+            let most = if settings.pixel.cubic().is_some() { 0.2 } else { 0.1 };
             let filter = Filter::new(&pyramid, &map, &settings);
             let plan = filter.plan(grid);
             for _ in 0..100 {
@@ -332,7 +334,7 @@ mod tests {
                 for (found, exact) in found.0.iter().zip(exact) {
                     let error = (f64::from(*found) / 256.0 - exact).abs();
                     worst = worst.max(error);
-                    assert!(error < 0.1, "{found} / 256 is not {exact}: {filter:?} {grid:?} {at:?}");
+                    assert!(error < most, "{found} / 256 is not {exact}: {filter:?} {grid:?} {at:?}");
                 }
             }
             Ok(())

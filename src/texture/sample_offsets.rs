@@ -78,9 +78,9 @@ impl Scale {
 
 impl<'a> Footings<'a> {
     /// Those of a plan; `None` where each sample must be filtered: where samples are too far apart, have
-    /// several taps, or read single texels.
+    /// several taps, or read other texels than the four around them.
     pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<Self> {
-        if plan.pixel == PixelSampling::Nearest || plan.line.taps.count > 1 {
+        if plan.pixel != PixelSampling::Bilinear || plan.line.taps.count > 1 {
             return None;
         }
         Some(Self {

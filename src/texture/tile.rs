@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec2;
 
-use super::PixelSampling;
+use super::{Cubic, PixelSampling};
 use crate::color::Premultiplied16;
 
 /// Sizes of a tile that are kept: the picture's, and those of thumbnails beside it.
@@ -79,6 +79,9 @@ impl Tile {
         match sampling {
             PixelSampling::Nearest => self.texel(self.wrapped(texels)),
             PixelSampling::Bilinear => self.mixed(&self.cell(texels)),
+            PixelSampling::CatmullRom => self.kept(texels, Cubic::CATMULL_ROM),
+            PixelSampling::BSpline => self.kept(texels, Cubic::B_SPLINE),
+            PixelSampling::Mitchell => self.kept(texels, Cubic::MITCHELL),
         }
     }
 
@@ -88,12 +91,16 @@ impl Tile {
         let read = match sampling {
             PixelSampling::Nearest => vec![(self.wrapped(texels), 1.0)],
             PixelSampling::Bilinear => self.cell(texels).to_vec(),
+            PixelSampling::CatmullRom => self.block(texels, Cubic::CATMULL_ROM).to_vec(),
+            PixelSampling::BSpline => self.block(texels, Cubic::B_SPLINE).to_vec(),
+            PixelSampling::Mitchell => self.block(texels, Cubic::MITCHELL).to_vec(),
         };
         TileRead {
             copy: at.floor().to_array().map(whole),
             color: self.color(at, sampling),
             texels: read
                 .into_iter()
+                .filter(|(_, weight)| *weight != 0.0 || sampling.cubic().is_none())
                 .map(|(at, weight)| TileTexelRead {
                     at,
                     weight,
@@ -131,12 +138,34 @@ impl Tile {
         })
     }
 
+    /// The 4 x 4 texels around a point, and their weights.
+    fn block(&self, texels: DVec2, cubic: Cubic) -> [([u32; 2], f64); 16] {
+        let corner = texels - 0.5;
+        let (low, part) = (corner.floor(), corner - corner.floor());
+        let (columns, rows) = (cubic.weights(part.x), cubic.weights(part.y));
+        let mut block = [([0; 2], 0.0); 16];
+        let places = (0..4_u8).flat_map(|y| (0..4_u8).map(move |x| [x, y]));
+        for (read, [x, y]) in block.iter_mut().zip(places) {
+            let at = low + DVec2::new(f64::from(x), f64::from(y)) - 1.0;
+            *read = (self.wrapped(at), columns[usize::from(x)] * rows[usize::from(y)]);
+        }
+        block
+    }
+
+    /// The colour of a block; what weights below zero bring beyond a colour is clamped.
+    fn kept(&self, texels: DVec2, cubic: Cubic) -> Premultiplied16 {
+        let Premultiplied16([r, g, b, alpha]) = self.mixed(&self.block(texels, cubic));
+        let alpha = alpha.min(Premultiplied16::ONE);
+        Premultiplied16([r.min(alpha), g.min(alpha), b.min(alpha), alpha])
+    }
+
+    #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a mean of 16-bit channels fits 16 bits"
+        reason = "a mean of 16-bit channels fits 16 bits; what is beyond them is cut off"
     )]
-    fn mixed(&self, cell: &[([u32; 2], f64); 4]) -> Premultiplied16 {
+    fn mixed(&self, cell: &[([u32; 2], f64)]) -> Premultiplied16 {
         let mut sum = [0.5; 4];
         for (at, weight) in cell {
             for (sum, channel) in sum.iter_mut().zip(self.texel(*at).0) {

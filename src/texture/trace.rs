@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::course_sampler::{Sampler, course_place, course_point};
+use super::course_sampler::{Sampler, course_place, course_point, course_weights};
 use super::filter::{Filter, SampleGrid};
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::pyramid::NumberedLevel;
@@ -21,7 +21,7 @@ pub struct TexelRead {
     pub at: [u32; 2],
     /// Premultiplied red, green, blue, alpha.
     pub color: [u8; 4],
-    /// Its part of the colour, `0.0..=1.0`; the parts of a sample sum to one.
+    /// Its part of the colour; the parts of a sample sum to one. Cubic kernels weigh some texels below zero, and others above one.
     pub weight: f64,
 }
 
@@ -31,8 +31,8 @@ pub struct TapRead {
     /// Number of the mip level.
     pub level: usize,
     /// In texels from the corner of the level's first texel; clamped as the filter clamps. The very number from which the
-    /// filter decides: the nearest texel is its whole part, and the four around it begin at the whole part of half a texel
-    /// less.
+    /// filter decides: the nearest texel is its whole part, the four around it begin at the whole part of half a texel less, and
+    /// the sixteen one texel before that.
     pub at: DVec2,
 }
 
@@ -130,7 +130,7 @@ impl Notes {
     }
 
     fn texel(&mut self, NumberedLevel { level, number }: NumberedLevel<'_>, [x, y]: [i32; 2], weight: f64) {
-        if weight <= 0.0 {
+        if weight == 0.0 {
             return;
         }
         let inside = |at: i32, size: u32| at.max(0).cast_unsigned().min(size - 1);
@@ -152,6 +152,13 @@ impl Notes {
         self.reads.taps.push(TapRead { level: number, at });
         // A nearest texel far beyond the level has no neighbour to its right, and reads none.
         let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
+        if let Some(cubic) = pixel.cubic() {
+            for (x, y, part) in course_weights(cubic, [s, t]) {
+                let at = [left.saturating_add(x), top.saturating_add(y)];
+                self.texel(numbered, at, f64::from(part * weight));
+            }
+            return;
+        }
         let mut read = |x, y, part: f32| self.texel(numbered, [x, y], f64::from(part * weight));
         read(left, top, (1.0 - s) * (1.0 - t));
         read(right, top, s * (1.0 - t));
@@ -186,10 +193,17 @@ impl TextureReads {
         mean
     }
 
-    /// The mean as a sample stores it.
+    /// The mean as a sample stores it: what cubic kernels bring beyond a colour is clamped.
     pub fn color(&self) -> Premultiplied16 {
         let per_byte = f64::from(Premultiplied16::PER_BYTE);
-        Premultiplied16(self.mean().map(|channel| whole(channel * per_byte)))
+        Premultiplied16(self.clamped().map(|channel| whole(channel * per_byte)))
+    }
+
+    /// The mean, with alpha at most what there can be and no channel above alpha.
+    pub fn clamped(&self) -> [f64; 4] {
+        let [r, g, b, alpha] = self.mean();
+        let alpha = alpha.clamp(0.0, 255.0);
+        [r.clamp(0.0, alpha), g.clamp(0.0, alpha), b.clamp(0.0, alpha), alpha]
     }
 }
 
@@ -246,8 +260,13 @@ mod tests {
             let decides = |tap: &TapRead| {
                 let first = (tap.at - bilinear::first_centre(pixel)).floor().max(DVec2::ZERO);
                 let beyond = DVec2::from(texel.at.map(f64::from)) - first;
-                let most = if pixel == PixelSampling::Nearest { 0.0 } else { 1.0 };
-                tap.level == texel.level && beyond.cmpge(DVec2::ZERO).all() && beyond.cmple(DVec2::splat(most)).all()
+                let [least, most] = match pixel {
+                    PixelSampling::Nearest => [0.0, 0.0],
+                    PixelSampling::Bilinear => [0.0, 1.0],
+                    PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => [-1.0, 2.0],
+                };
+                let inside = beyond.cmpge(DVec2::splat(least)).all() && beyond.cmple(DVec2::splat(most)).all();
+                tap.level == texel.level && inside
             };
             assert!(reads.taps.iter().any(decides), "{texel:?} lies beside {:?}", reads.taps);
         }
@@ -276,7 +295,7 @@ mod tests {
                 let drawn = sampler.sample(uv[0], uv[1]);
                 let reads = sampler.course_reads(uv[0], uv[1]);
                 check_decided(&reads, settings.pixel);
-                for (found, drawn) in reads.mean().iter().zip(drawn) {
+                for (found, drawn) in reads.clamped().iter().zip(drawn) {
                     assert!(
                         (found - f64::from(drawn)).abs() < 0.01,
                         "{reads:?} is not {drawn} at {uv:?}"

@@ -127,7 +127,12 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
                 .unwrap();
         }
         Setting::Anisotropy => settings.anisotropy = Anisotropy::new(value.parse().unwrap()).unwrap(),
-        Setting::PixelSampling => settings.pixel_sampling = PixelSampling::Bilinear,
+        Setting::PixelSampling => {
+            settings.pixel_sampling = PixelSampling::ALL
+                .into_iter()
+                .find(|sampling| sampling.name() == value)
+                .unwrap();
+        }
         Setting::SampleRate => settings.sample_rate = rate(value.parse().unwrap()),
         Setting::ShadingRate => {
             settings.shading = ShadingRate::ALL
@@ -147,16 +152,11 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
 
 /// All that may be advised, and more.
 fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
-    let mut all = vec![
-        RenderSettings {
-            rules: Rules::Standard,
-            ..*own
-        },
-        RenderSettings {
-            pixel_sampling: PixelSampling::Bilinear,
-            ..*own
-        },
-    ];
+    let mut all = vec![RenderSettings {
+        rules: Rules::Standard,
+        ..*own
+    }];
+    all.extend(PixelSampling::ALL.map(|pixel_sampling| RenderSettings { pixel_sampling, ..*own }));
     let mut automatic = *own;
     automatic.detail.fixed = None;
     let mut unbiased = *own;

@@ -624,7 +624,14 @@ pub(crate) fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], sett
             *sum += channel / f64::from(taps);
         }
     }
-    sum
+    // What weights below zero bring is cut off once everything is added.
+    let alpha = sum[3].clamp(0.0, 1.0);
+    [
+        sum[0].clamp(0.0, alpha),
+        sum[1].clamp(0.0, alpha),
+        sum[2].clamp(0.0, alpha),
+        alpha,
+    ]
 }
 
 /// The length of the shortest step of one pixel in any direction: the eigenvalue of the steps' Gram matrix.
@@ -662,6 +669,18 @@ fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
     let at = uv * DVec2::new(f64::from(level.width()), f64::from(level.height()));
     match sampling {
         PixelSampling::Nearest => texel(at.x.floor(), at.y.floor()),
+        PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => {
+            let corner = (at - 0.5).floor();
+            let mut sum = [0.0; 4];
+            for (dx, dy) in (0..16).map(|i| (f64::from(i % 4 - 1), f64::from(i / 4 - 1))) {
+                let centre = corner + DVec2::new(dx, dy) + 0.5;
+                let weight = cubic(sampling, at.x - centre.x) * cubic(sampling, at.y - centre.y);
+                for (sum, channel) in sum.iter_mut().zip(texel(corner.x + dx, corner.y + dy)) {
+                    *sum += channel * weight;
+                }
+            }
+            sum
+        }
         PixelSampling::Bilinear => {
             let corner = (at - 0.5).floor();
             let weight = at - 0.5 - corner;
@@ -675,6 +694,22 @@ fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
             }
             sum
         }
+    }
+}
+
+/// The kernels as their papers print them, each by itself: Keys with `a = -1/2`, the B-spline's blending function, and
+/// Mitchell and Netravali's recommendation multiplied out.
+fn cubic(sampling: PixelSampling, distance: f64) -> f64 {
+    let x = distance.abs();
+    let near = x < 1.0;
+    match sampling {
+        PixelSampling::CatmullRom if near => 1.5 * x.powi(3) - 2.5 * x.powi(2) + 1.0,
+        PixelSampling::CatmullRom => -0.5 * x.powi(3) + 2.5 * x.powi(2) - 4.0 * x + 2.0,
+        PixelSampling::BSpline if near => 0.5 * x.powi(3) - x.powi(2) + 2.0 / 3.0,
+        PixelSampling::BSpline => (2.0 - x).powi(3) / 6.0,
+        PixelSampling::Mitchell if near => (21.0 * x.powi(3) - 36.0 * x.powi(2) + 16.0) / 18.0,
+        PixelSampling::Mitchell => (-7.0 * x.powi(3) + 36.0 * x.powi(2) - 60.0 * x + 32.0) / 18.0,
+        PixelSampling::Nearest | PixelSampling::Bilinear => unreachable!("no cubic kernel"),
     }
 }
 

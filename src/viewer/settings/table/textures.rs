@@ -14,15 +14,16 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "How a texture is read inside a mip level",
         about: About::Textures,
         told: Told::Always,
-        panel: Some(PanelRow::new("Pixel", "Pixel sampling", Control::Buttons)),
+        panel: Some(PanelRow::new("Pixel", "Pixel sampling", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
+            more: "Catmull-Rom is the sharpest and rings at edges, the B-spline blurs, Mitchell lies between; sixteen texels cost about three times as much as the nearest",
             keys: &[Chord::char('p')],
             ..SettingCommand::new(
                 "pixel-sampling",
                 "Pixel sampling",
-                "Switches between nearest and bilinear texels",
+                "Reads the nearest texel, bilinear the four around a point, or sixteen by a cubic kernel",
             )
         }],
         ..named!("pixel-sampling", "pixel sampling", PixelSampling, render.pixel_sampling)

@@ -1,0 +1,267 @@
+//! Filtering samples that read 4 x 4 texels each, by a cubic kernel: with one tap or several.
+//!
+//! ```text
+//!      o   o   o   o        o texels with their weights, products of a column's and a row's
+//!      o   o   o   o        # the sample
+//!            #
+//!      o   o   o   o        weights in the corners may be above zero again:
+//!      o   o   o   o        below zero times below zero
+//! ```
+//!
+//! First the weights of many samples are found, in vectors of samples; then their texels are added, in vectors of channels, two
+//! rows and two columns at a time as `sample_filter` does. Each number is that of `bilinear::each`, whatever the vectors' width.
+//! Blocks that reach beyond the level are put together texel by texel.
+//!
+//! Some weights are below zero, so that a sum may be no colour. It is clamped once, when everything that a sample reads is in
+//! it: alpha to what there can be, then each premultiplied channel to alpha. So a texel that shines through never becomes
+//! brighter than it could be over black.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i32x8, u8x16, u8x32};
+
+use super::MipLevel;
+use super::bilinear::{FRACTION_BITS, MASS, per_tap, tap_offset, to_fixed};
+use super::cubic::{CubicWeights, WHOLE};
+use super::filter_plan::{GridLevel, Plan};
+use super::sample_filter::{BLOCK, SampleVector, by_fours};
+use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
+use super::texel_coordinates::{Positions, columns_and_rows};
+
+/// Texels that are read on each axis.
+const SIDE: u32 = 4;
+/// Stands for the offset of a block that reaches beyond the level.
+const BEYOND: i32 = -1;
+const HALF: i32 = 1 << (FRACTION_BITS - 1);
+
+/// Where the samples of a block read one level.
+struct Cells {
+    /// The first of the 4 x 4 texels of each sample, or [`BEYOND`].
+    offsets: [i32; BLOCK],
+    /// Its column, and its row.
+    corners: [[i32; BLOCK]; 2],
+    /// The weights of 2 x 2 texels each, as [`Spread::columns`] takes them: upper left, upper right, lower left, lower right.
+    weights: [[u64; BLOCK]; 4],
+}
+
+/// One tap of every sample in one level.
+#[derive(Clone, Copy)]
+struct Tap<'p> {
+    plan: &'p Plan<'p>,
+    cubic: &'p CubicWeights,
+    level: &'p GridLevel<'p>,
+    number: u32,
+}
+
+/// Filters samples; see [`super::Filter::points`].
+#[inline(always)]
+pub(super) fn filter_with<S: Simd, C: FromColors>(
+    simd: S,
+    plan: &Plan<'_>,
+    cubic: &CubicWeights,
+    points: &[[u16; 2]],
+    out: &mut [C],
+) {
+    let spread = Spread::new(simd);
+    let count = plan.line.taps.count;
+    let scale = per_tap(count);
+    let mut cells = Cells::EMPTY;
+    for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
+        // Even and odd columns of each sample.
+        let mut sums = [i32x8::splat(simd, 0); BLOCK];
+        for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
+            let centres = centres(simd, plan, level, points);
+            for number in 0..count {
+                let tap = Tap {
+                    plan,
+                    cubic,
+                    level,
+                    number,
+                };
+                cells.fill(simd, tap, &centres, points.len());
+                for (i, sum) in sums.iter_mut().enumerate().take(points.len()) {
+                    *sum += cells.sum(simd, spread, level.level, i);
+                }
+            }
+        }
+        by_fours!(simd, out, |i| {
+            let at = |k: usize| sums[(i + k) % BLOCK];
+            let low = clamped(simd, both_columns(at(0), at(1)), count);
+            let high = clamped(simd, both_columns(at(2), at(3)), count);
+            if count == 1 {
+                round(simd, low, high)
+            } else {
+                mean(simd, low, high, scale)
+            }
+        });
+    }
+}
+
+/// Where the samples of a block lie in a level, in fixed point: columns, then rows; not yet inside it where taps are added.
+type Centres = [[i32; BLOCK]; 2];
+
+#[inline(always)]
+fn centres<S: Simd>(simd: S, plan: &Plan<'_>, level: &GridLevel<'_>, points: &[[u16; 2]]) -> Centres {
+    let lanes = S::u32s::LEN;
+    let last = points.len().saturating_sub(lanes);
+    let mut centres = [[0; BLOCK]; 2];
+    for first in (0..points.len()).step_by(lanes) {
+        // The last vector begins earlier rather than to be short.
+        let first = first.min(last);
+        let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
+        for (centres, axis) in centres.iter_mut().zip([&level.x, &level.y]) {
+            let places = match plan.line.taps.count {
+                1 => at.fixed(simd, axis),
+                _ => at.far(simd, axis),
+            };
+            places.store_slice(&mut centres[first..first + lanes]);
+        }
+    }
+    centres
+}
+
+/// Sums of two samples as what a colour can be: see the module.
+#[inline(always)]
+fn clamped<S: Simd>(simd: S, sums: i32x8<S>, taps: u32) -> i32x8<S> {
+    /// Alpha, which is the last channel, in the place of each.
+    const ALPHA: [u8; 32] = [
+        12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15,
+        12, 13, 14, 15,
+    ];
+    let most = i32::from(u8::MAX) * MASS * taps.cast_signed();
+    let inside = sums.max(i32x8::splat(simd, 0)).min(i32x8::splat(simd, most));
+    let alpha = inside
+        .bitcast::<u8x32<S>>()
+        .swizzle_dyn_within_blocks(u8x32::simd_from(simd, ALPHA));
+    inside.min(alpha.bitcast::<i32x8<S>>())
+}
+
+impl Cells {
+    const EMPTY: Self = Self {
+        offsets: [0; BLOCK],
+        corners: [[0; BLOCK]; 2],
+        weights: [[0; BLOCK]; 4],
+    };
+
+    /// Notes the cells of a tap of up to [`BLOCK`] samples.
+    #[inline(always)]
+    fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        Tap {
+            plan,
+            cubic,
+            level,
+            number: tap_number,
+        }: Tap<'_>,
+        centres: &Centres,
+        count: usize,
+    ) {
+        let lanes = S::u32s::LEN;
+        let last = count.saturating_sub(lanes);
+        let number = |value| S::i32s::splat(simd, value);
+        let axes = [&level.x, &level.y];
+        let offsets = axes.map(|axis| match plan.line.taps.count {
+            1 => 0,
+            _ => tap_offset(axis.tap(&plan.line, tap_number)),
+        });
+        let ends = axes.map(|axis| to_fixed(axis.last, axis.last).cast_signed());
+        for first in (0..count).step_by(lanes) {
+            let first = first.min(last);
+            let at = [0, 1].map(|axis| {
+                let centre = S::i32s::from_slice(simd, &centres[axis][first..first + lanes]);
+                (centre + number(offsets[axis])).max(number(0)).min(number(ends[axis]))
+            });
+            self.note(simd, cubic, level, SampleVector { at, first });
+        }
+    }
+
+    /// Notes the cells of a vector of samples.
+    #[inline(always)]
+    fn note<S: Simd>(&mut self, simd: S, cubic: &CubicWeights, level: &GridLevel<'_>, vector: SampleVector<S>) {
+        let SampleVector { at: [x, y], first } = vector;
+        let lanes = S::u32s::LEN;
+        let number = |value| S::i32s::splat(simd, value);
+        let (left, top) = ((x >> FRACTION_BITS) - 1, (y >> FRACTION_BITS) - 1);
+        left.store_slice(&mut self.corners[0][first..first + lanes]);
+        top.store_slice(&mut self.corners[1][first..first + lanes]);
+        let farthest = |size: u32| number(size.cast_signed() - SIDE.cast_signed());
+        let inside = left.simd_ge(number(0))
+            & top.simd_ge(number(0))
+            & left.simd_le(farthest(level.level.width()))
+            & top.simd_le(farthest(level.level.height()));
+        let offsets = top * number(level.level.stride().cast_signed()) + left;
+        let offsets = inside.select(offsets, number(BEYOND));
+        offsets.store_slice(&mut self.offsets[first..first + lanes]);
+
+        let fraction = number((1 << FRACTION_BITS) - 1);
+        let columns = weights(simd, cubic, x & fraction);
+        let rows = shares(simd, weights(simd, cubic, y & fraction), number(level.mass));
+        let products = rows.map(|row| shares(simd, columns, row));
+        for (quarter, (row, column)) in [(0, 0), (0, 2), (2, 0), (2, 2)].into_iter().enumerate() {
+            // Weights below zero are as many bits in the lower half as in the upper one.
+            let both = |column: usize| products[row][column] & number(0xFFFF) | products[row + 1][column] << 16;
+            let [low, high] = in_columns::<S>(both(column), both(column + 1));
+            let (first, second) = self.weights[quarter][first..first + lanes].split_at_mut(lanes / 2);
+            low.store_slice(first);
+            high.store_slice(second);
+        }
+    }
+
+    /// Red, green, blue and alpha of sample `i` in the units of the weights: even columns, then odd columns.
+    #[inline(always)]
+    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, level: &MipLevel, i: usize) -> i32x8<S> {
+        let i = i % BLOCK;
+        let rows: [u8x16<S>; 4] = if let Ok(offset) = usize::try_from(self.offsets[i]) {
+            let stride = level.stride() as usize;
+            let texels = &level.texels()[offset..][..3 * stride + SIDE as usize];
+            [0, 1, 2, 3].map(|row| u8x16::simd_from(simd, bytes(&texels[row * stride..])))
+        } else {
+            let rows = beyond(level, [self.corners[0][i], self.corners[1][i]]);
+            rows.map(|row| u8x16::simd_from(simd, bytes(&row)))
+        };
+        let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
+        let upper = quarter(rows[0].zip_low(rows[1]), 0) + quarter(rows[0].zip_high(rows[1]), 1);
+        let lower = quarter(rows[2].zip_low(rows[3]), 2) + quarter(rows[2].zip_high(rows[3]), 3);
+        upper + lower
+    }
+}
+
+/// The weights of the first, the third and the fourth texel of an axis; see [`CubicWeights::shares`].
+#[inline(always)]
+fn weights<S: Simd>(simd: S, cubic: &CubicWeights, fractions: S::i32s) -> [S::i32s; 3] {
+    let t = S::f32s::float_from(fractions);
+    let number = |value| S::f32s::splat(simd, value);
+    cubic.polynomials.map(|[cube, square, linear, constant]| {
+        let weight = ((number(cube) * t + number(square)) * t + number(linear)) * t + number(constant);
+        let bits: S::i32s = (weight + number(WHOLE)).bitcast();
+        bits - S::i32s::splat(simd, WHOLE.to_bits().cast_signed())
+    })
+}
+
+/// How totals are shared by four texels; see [`CubicWeights::shares`].
+#[inline(always)]
+fn shares<S: Simd>(simd: S, [first, third, fourth]: [S::i32s; 3], total: S::i32s) -> [S::i32s; 4] {
+    let share = |weight: S::i32s| (total * weight + S::i32s::splat(simd, HALF)) >> FRACTION_BITS;
+    let (first, third, fourth) = (share(first), share(third), share(fourth));
+    [first, total - first - third - fourth, third, fourth]
+}
+
+/// Four texels.
+#[inline(always)]
+fn bytes(texels: &[[u8; 4]]) -> [u8; 16] {
+    let mut bytes = [0; 16];
+    bytes.copy_from_slice(texels[..4].as_flattened());
+    bytes
+}
+
+/// A block of which some texels lie beyond the level.
+#[cold]
+#[inline(never)]
+fn beyond(level: &MipLevel, [left, top]: [i32; 2]) -> [[[u8; 4]; 4]; 4] {
+    [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| level.texel(left + x, top + y)))
+}

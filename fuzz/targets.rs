@@ -16,7 +16,7 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{self, RenderSettings, Subject};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions, Scene};
-use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling, Texture};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling, Texture, Wrap};
 use rasterscope::viewer::Lesson;
 use rasterscope::viewer::script::Script;
 
@@ -243,6 +243,7 @@ impl Choices {
             sample_rate: SampleRate::new(rate).expect("a square number"),
             pattern: self.among(SamplePattern::ALL.as_slice()),
             pixel_sampling: self.among(&PixelSampling::ALL),
+            texture_wrap: self.among(&Wrap::ALL),
             level_sampling: self.among(&[LevelSampling::Zero, LevelSampling::Nearest, LevelSampling::Linear]),
             anisotropy: Anisotropy::new(taps).expect("a number of taps"),
             rules: self.among(Rules::ALL.as_slice()),

@@ -22,7 +22,7 @@ use crate::raster::{
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};
-use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter, SamplingSettings};
+use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter, SamplingSettings, Wrap};
 
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
@@ -47,6 +47,8 @@ pub struct RenderSettings {
     pub shading: ShadingRate,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
+    /// What textures show beyond their borders. The tiles of patterns go on for ever, whatever this says.
+    pub texture_wrap: Wrap,
     /// Between mip levels.
     pub level_sampling: LevelSampling,
     /// In which values coarser mip levels were averaged.
@@ -82,6 +84,7 @@ impl Default for RenderSettings {
             seed: Seed::default(),
             shading: ShadingRate::default(),
             pixel_sampling: PixelSampling::default(),
+            texture_wrap: Wrap::default(),
             level_sampling: LevelSampling::default(),
             pyramid: ResolveSpace::default(),
             pyramid_filter: PyramidFilter::default(),
@@ -100,7 +103,7 @@ impl Default for RenderSettings {
 
 impl RenderSettings {
     /// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules,
-    /// background, how a texture is continued between its texels, what samples weigh and in which values they are averaged
+    /// background, how a texture is continued between its texels and beyond its border, what samples weigh and in which values they are averaged
     /// are the picture's own: what is then left of a difference is sampling. Only [`Rules::Float`] gives way to the standard
     /// rules: no number of samples closes its pinholes.
     #[must_use]
@@ -345,6 +348,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
         shading: settings.shading,
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
+            wrap: settings.texture_wrap,
             level: settings.level_sampling,
             pyramid: settings.pyramid,
             pyramid_filter: settings.pyramid_filter,

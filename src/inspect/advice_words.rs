@@ -342,6 +342,7 @@ mod tests {
             index: 0,
             size: [64, 64],
             pixel_sampling,
+            wrap: "clamp",
             asked: false,
             level_sampling,
             right: [major, 0.0],

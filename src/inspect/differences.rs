@@ -110,8 +110,9 @@ fn by_what(textures: &[(String, Difference)]) -> Vec<Difference> {
 type InWords = fn(&Texture) -> String;
 
 /// How a textured primitive may be read differently.
-const TEXTURE: [(&str, InWords); 5] = [
+const TEXTURE: [(&str, InWords); 6] = [
     ("pixel sampling", |texture| texture.pixel_sampling.to_owned()),
+    ("texture wrap", |texture| texture.wrap.to_owned()),
     ("level sampling", |texture| texture.level_sampling.to_owned()),
     ("taps", |texture| texture.taps.to_string()),
     ("level of detail", |texture| {

@@ -1,7 +1,7 @@
 //! What a sample interpolates in words: a place on a ramp, the texels that it reads.
 
 use super::explanation::hex;
-use super::model::{Interpolated, RampStop, Tap, Texel, TileTexel};
+use super::model::{Interpolated, RampStop, Tap, Texel, TileTexel, Wrapped};
 use super::numbers::{cut, number, percent};
 
 /// Points of a texture that are listed at most.
@@ -57,9 +57,15 @@ impl Interpolated {
             ],
             Self::Texture {
                 uv: [u, v],
+                wrapped,
                 texels,
                 taps,
-            } => texture_lines([*u, *v], taps, texels),
+            } => {
+                let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+                lines.extend(wrapped.as_ref().map(Wrapped::words));
+                lines.extend(texture_lines(taps, texels));
+                lines
+            }
         }
     }
 }
@@ -82,8 +88,23 @@ fn pattern_lines([column, row]: [i64; 2], [width, height]: [u32; 2], texels: &[T
     lines
 }
 
-fn texture_lines([u, v]: [f64; 2], taps: &[Tap], texels: &[Texel]) -> Vec<String> {
-    let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+impl Wrapped {
+    /// Which copy of the texture it is, and where in it.
+    fn words(&self) -> String {
+        let [u, v] = self.uv;
+        let turned = match self.turned {
+            [false, false] => "",
+            [true, false] => ", turned left to right",
+            [false, true] => ", turned upside down",
+            [true, true] => ", turned both ways",
+        };
+        let [column, row] = self.copy.map(number);
+        format!("wrapped   ({u:.5}, {v:.5}) in copy ({column}, {row}){turned}")
+    }
+}
+
+fn texture_lines(taps: &[Tap], texels: &[Texel]) -> Vec<String> {
+    let mut lines = Vec::new();
     for tap in taps.iter().take(MOST_TAPS) {
         let [x, y] = tap.at.map(cut);
         lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));

@@ -35,7 +35,7 @@ pub use explanation::Question;
 pub use level_in_use::LevelInUse;
 pub use model::{
     Around, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample,
-    Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View,
+    Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View, Wrapped,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use text::Detail;

@@ -8,6 +8,7 @@
 use serde::Serialize;
 
 use crate::color::ResolveSpace;
+use crate::texture::Wrap;
 
 /// The version of the shape of the report.
 pub const VERSION: u32 = 1;
@@ -402,11 +403,25 @@ pub enum Interpolated {
     Texture {
         /// `[u, v]`.
         uv: [f64; 2],
+        /// Where that is in a texture that goes on beyond its border; `None` inside of it, and where it ends there.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        wrapped: Option<Wrapped>,
         /// The points around which texels were read.
         taps: Vec<Tap>,
         /// The texels read there.
         texels: Vec<Texel>,
     },
+}
+
+/// A place of a texture that goes on beyond its border.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Wrapped {
+    /// Column and row of the copy in which it lies; the texture itself is (0, 0).
+    pub copy: [f64; 2],
+    /// `[u, v]` in that copy.
+    pub uv: [f64; 2],
+    /// Whether the copy is turned round along each.
+    pub turned: [bool; 2],
 }
 
 /// A stop of a gradient.
@@ -486,6 +501,9 @@ pub struct Texture {
     pub size: [u32; 2],
     /// How it is read inside a level: `nearest`, `bilinear`, or by the cubic kernel `catmull-rom`, `b-spline` or `mitchell`.
     pub pixel_sampling: &'static str,
+    /// What it shows beyond its border: `clamp`, `repeat` or `mirror`.
+    #[serde(skip_serializing_if = "is_clamp")]
+    pub wrap: &'static str,
     /// Whether the document asks for that (`image-rendering`), so that the setting has no effect.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub asked: bool,
@@ -560,6 +578,12 @@ pub struct Pinhole {
     pub corners: [[f64; 2]; 3],
     /// Its edges there.
     pub edges: [Edge; 3],
+}
+
+/// Whether a texture ends at its border.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives references")]
+fn is_clamp(wrap: &&'static str) -> bool {
+    *wrap == Wrap::Clamp.name()
 }
 
 impl Verdict {

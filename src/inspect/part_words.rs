@@ -297,6 +297,15 @@ impl Texture {
 }
 
 impl Texture {
+    /// What it shows beyond its border, where it does not end there.
+    fn wrap_words(&self) -> &'static str {
+        match self.wrap {
+            "repeat" => ", repeated beyond its border",
+            "mirror" => ", mirrored beyond its border",
+            _ => "",
+        }
+    }
+
     /// How it is read inside a level.
     fn sampling_words(&self) -> String {
         match self.pixel_sampling {
@@ -312,10 +321,11 @@ impl Texture {
         let [long, wide] = self.footprint();
         let mut lines = vec![
             format!(
-                "texture {} of {width} x {height} texels, read {}{}",
+                "texture {} of {width} x {height} texels, read {}{}{}",
                 self.name,
                 self.sampling_words(),
-                if self.asked { " as image-rendering asks" } else { "" }
+                if self.asked { " as image-rendering asks" } else { "" },
+                self.wrap_words()
             ),
             format!(
                 "one {} right is {} texels, down {}",

@@ -51,6 +51,7 @@ impl Question<'_> {
     pub(super) fn texture(&self, usage: &TextureUse) -> Texture {
         let RenderSettings {
             pixel_sampling,
+            texture_wrap,
             level_sampling,
             pyramid,
             pyramid_filter,
@@ -80,6 +81,7 @@ impl Question<'_> {
             index: usage.texture,
             size,
             pixel_sampling: texture.asks.unwrap_or(*pixel_sampling).name(),
+            wrap: texture_wrap.name(),
             asked: texture.asks.is_some(),
             level_sampling: level_sampling.name(),
             right: right.to_array(),

@@ -2,12 +2,13 @@
 
 use glam::DVec2;
 
-use super::model::{Edge, Interpolated, RampStop, Tap, Texel, TileTexel, Verdict, View};
+use super::model::{Edge, Interpolated, RampStop, Tap, Texel, TileTexel, Verdict, View, Wrapped};
 use super::samples::straight;
 use crate::color::Rgba;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, SampleOfTriangle};
 use crate::rules::Rules;
+use crate::texture::Wrap;
 
 pub(super) fn triangle_view(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> View {
     View::Triangle {
@@ -55,6 +56,17 @@ fn float_verdict(value: f32) -> Verdict {
     }
 }
 
+/// Where a point beyond the border of a texture is that goes on there.
+fn wrapped(uv: [f64; 2], wrap: Wrap) -> Option<Wrapped> {
+    let inside = uv.iter().all(|at| (0.0..=1.0).contains(at));
+    let places = uv.map(|at| wrap.inside(at));
+    (wrap != Wrap::Clamp && !inside).then(|| Wrapped {
+        copy: uv.map(f64::floor),
+        uv: places.map(|(at, _)| at),
+        turned: places.map(|(_, turned)| turned),
+    })
+}
+
 pub(super) fn interpolated(attributes: &Attributes) -> Interpolated {
     match attributes {
         Attributes::None => Interpolated::Flat,
@@ -90,6 +102,7 @@ pub(super) fn interpolated(attributes: &Attributes) -> Interpolated {
         Attributes::OffRamp => Interpolated::OffRamp,
         Attributes::Texture { uv, reads } => Interpolated::Texture {
             uv: *uv,
+            wrapped: wrapped(*uv, reads.wrap),
             taps: reads
                 .taps
                 .iter()

@@ -13,8 +13,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8};
 
 use super::PixelSampling;
-use super::bilinear::{FRACTION_BITS, per_tap, tap_offset, to_fixed};
+use super::bilinear::per_tap;
 use super::filter_plan::{GridLevel, Plan};
+use super::fixed_point::{FRACTION_BITS, tap_offset, to_fixed};
 use super::sample_filter::{BLOCK, Cells, SampleVector, Source, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, mean};
 use super::texel_coordinates::{Positions, columns_and_rows};

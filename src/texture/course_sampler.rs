@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::bilinear::mass;
-use super::{Cubic, Footprint, PixelSampling, Reading, SamplingSettings, Taps};
-use super::{MipLevel, MipPyramid, bilinear};
+use super::wrap::Endless;
+use super::{Cubic, Footprint, PixelSampling, Reading, SamplingSettings, Taps, Wrap};
+use super::{MipLevel, MipPyramid, bilinear, fixed_point, wrap};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
 
@@ -20,6 +21,7 @@ pub struct Sampler<'a> {
     /// The longer side of the footprint, in `(u, v)`.
     pub(super) along: DVec2,
     pub(super) pixel: PixelSampling,
+    pub(super) wrap: Wrap,
     rules: Rules,
 }
 
@@ -41,15 +43,17 @@ impl<'a> Sampler<'a> {
             taps,
             along: if taps.along_x { footprint.dx } else { footprint.dy },
             pixel: settings.pixel,
+            wrap: settings.wrap,
             rules: settings.rules,
         }
     }
 
-    /// The premultiplied colour at `(u, v)`, channels in `0.0..=255.0`. Coordinates outside `0..=1` read the border.
+    /// The premultiplied colour at `(u, v)`, channels in `0.0..=255.0`. Outside `0..=1` there is what [`Wrap`] says.
     ///
     /// Under the standard rules this is what [`super::Filter`] gives for a fragment there, to the last bit. The course's
     /// rules know no anisotropic filtering; there it is the mean of what they read at the taps. They know no cubic kernels
-    /// either; there texels are weighed by them around the point that those rules look at.
+    /// either; there texels are weighed by them around the point that those rules look at. Nor do they wrap: `(u, v)` is brought
+    /// into `0..=1` and read as they do, so that the first and the last texel, which stand in the corners, lie on each other.
     pub fn sample(&self, u: f32, v: f32) -> [f32; 4] {
         let at = DVec2::new(f64::from(u), f64::from(v));
         match self.rules {
@@ -58,7 +62,7 @@ impl<'a> Sampler<'a> {
                 let (level, mass) = self
                     .coarser
                     .map_or((self.finer, 0), |(level, weight)| (level, mass(weight)));
-                self.add(self.finer, at, bilinear::MASS - mass, &mut sums);
+                self.add(self.finer, at, fixed_point::MASS - mass, &mut sums);
                 self.add(level, at, mass, &mut sums);
                 let sums = bilinear::clamped(sums, self.taps.count);
                 let stored = match self.taps.count {
@@ -83,19 +87,16 @@ impl<'a> Sampler<'a> {
 
     fn add(&self, level: &MipLevel, at: DVec2, mass: i32, sums: &mut [i32; 4]) {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
-        let at = at * size - bilinear::first_centre(self.pixel);
+        let at = at * size - fixed_point::first_centre(self.pixel);
         let last = size - 1.0;
         for tap in 0..self.taps.count {
-            let place = if self.taps.count == 1 {
-                [bilinear::to_fixed(at.x, last.x), bilinear::to_fixed(at.y, last.y)]
-            } else {
-                let offset = self.along * size * self.taps.place(tap);
-                [
-                    bilinear::tap(at.x, offset.x, last.x),
-                    bilinear::tap(at.y, offset.y, last.y),
-                ]
+            let offset = self.along * size * self.taps.place(tap);
+            let place = |at: f64, offset: f64, last: f64| {
+                let offset = (self.taps.count > 1).then_some(offset);
+                wrap::place(last, Endless::new(self.wrap, last, self.pixel), at, offset)
             };
-            bilinear::add(level, self.pixel, place, mass, sums);
+            let place = [place(at.x, offset.x, last.x), place(at.y, offset.y, last.y)];
+            bilinear::add(level, (self.pixel, self.wrap), place, mass, sums);
         }
     }
 
@@ -110,10 +111,11 @@ impl<'a> Sampler<'a> {
 
     /// By the course's rules, with one tap, not clamped yet.
     fn sample_levels(&self, u: f32, v: f32) -> [f32; 4] {
-        let fine = course_level(self.finer, self.pixel, [u, v]);
+        let uv = self.wrap.course_inside([u, v]);
+        let fine = course_level(self.finer, (self.pixel, self.wrap), uv);
         match self.coarser {
             None => fine,
-            Some((level, weight)) => lerp(fine, course_level(level, self.pixel, [u, v]), weight),
+            Some((level, weight)) => lerp(fine, course_level(level, (self.pixel, self.wrap), uv), weight),
         }
     }
 }
@@ -141,9 +143,9 @@ pub(super) fn course_place(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2])
 }
 
 /// The texel there, or the texels around the point, weighted by distance.
-fn course_level(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2]) -> [f32; 4] {
+fn course_level(level: &MipLevel, (pixel, wrap): (PixelSampling, Wrap), uv: [f32; 2]) -> [f32; 4] {
     let ([left, top], [s, t]) = course_place(level, pixel, uv);
-    let texel = |x, y| level.texel(x, y).map(f32::from);
+    let texel = |x, y| level.wrapped(wrap, [x, y]).map(f32::from);
     if pixel == PixelSampling::Nearest {
         return texel(left, top);
     }

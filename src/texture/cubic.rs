@@ -18,7 +18,8 @@
 //!     distance   1 + t   t       1 - t   2 - t
 //! ```
 
-use super::bilinear::{FRACTION_BITS, share};
+use super::PixelSampling;
+use super::fixed_point::{FRACTION_BITS, share};
 
 /// A cubic kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +30,10 @@ pub struct Cubic {
 
 /// What a point weighs three of the four texels of an axis by, as polynomials of how far it is beyond the second one, in
 /// fixed point: the first texel, the third and the fourth. The second one takes the rest, so that all sum to one exactly.
+///
+/// Bilinear weights are such polynomials, too, of the third texel alone; and those of the nearest texel are nothing.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CubicWeights {
+pub(super) struct TexelWeights {
     /// From the cube down to the constant.
     pub(super) polynomials: [[f32; 4]; 3],
 }
@@ -74,9 +77,15 @@ impl Cubic {
     }
 }
 
-impl CubicWeights {
-    /// Those of a kernel: its heights at `1 + t`, `1 - t` and `2 - t`, multiplied out.
-    pub(super) fn new(Cubic { b, c }: Cubic) -> Self {
+impl TexelWeights {
+    /// Those of a pixel sampling; of a cubic kernel its heights at `1 + t`, `1 - t` and `2 - t`, multiplied out.
+    pub(super) fn new(pixel: PixelSampling) -> Self {
+        let Some(Cubic { b, c }) = pixel.cubic() else {
+            let slope = if pixel == PixelSampling::Bilinear { 1.0 } else { 0.0 };
+            return Self {
+                polynomials: [[0.0; 4], [0.0, 0.0, slope, 0.0], [0.0; 4]],
+            };
+        };
         let first = [-b - 6.0 * c, 3.0 * b + 12.0 * c, -3.0 * b - 6.0 * c, b];
         let third = [
             -12.0 + 9.0 * b + 6.0 * c,
@@ -115,20 +124,25 @@ fn to_single(value: f64) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::PixelSampling;
-    use super::super::bilinear::MASS;
+    use super::super::fixed_point::MASS;
     use super::*;
 
-    const KERNELS: [(&str, Cubic); 3] = [
-        ("Catmull-Rom", Cubic::CATMULL_ROM),
-        ("B-spline", Cubic::B_SPLINE),
-        ("Mitchell", Cubic::MITCHELL),
+    const KERNELS: [PixelSampling; 3] = [
+        PixelSampling::CatmullRom,
+        PixelSampling::BSpline,
+        PixelSampling::Mitchell,
     ];
+
+    /// Every kernel with its name.
+    fn kernels() -> impl Iterator<Item = (&'static str, Cubic, TexelWeights)> {
+        KERNELS
+            .into_iter()
+            .filter_map(|pixel| Some((pixel.name(), pixel.cubic()?, TexelWeights::new(pixel))))
+    }
 
     #[test]
     fn weights_sum_to_one_everywhere() {
-        for (name, cubic) in KERNELS {
-            let shares = CubicWeights::new(cubic);
+        for (name, cubic, shares) in kernels() {
             for fraction in 0..1 << FRACTION_BITS {
                 let t = f64::from(fraction) / f64::from(1 << FRACTION_BITS);
                 let sum: f64 = cubic.weights(t).iter().sum();
@@ -141,8 +155,7 @@ mod tests {
 
     #[test]
     fn shares_are_the_kernel_of_the_paper() {
-        for (name, cubic) in KERNELS {
-            let shares = CubicWeights::new(cubic);
+        for (name, cubic, shares) in kernels() {
             for fraction in 0..1 << FRACTION_BITS {
                 let t = f64::from(fraction) / f64::from(1 << FRACTION_BITS);
                 let whole = shares.shares(fraction, MASS);
@@ -155,9 +168,23 @@ mod tests {
     }
 
     #[test]
+    fn bilinear_and_nearest_weights_are_polynomials_too() {
+        for fraction in (0..1 << FRACTION_BITS).step_by(7) {
+            let [bilinear, nearest] = [PixelSampling::Bilinear, PixelSampling::Nearest].map(TexelWeights::new);
+            let right = share(MASS, fraction);
+            assert_eq!(
+                bilinear.shares(fraction, MASS),
+                [0, MASS - right, right, 0],
+                "at {fraction}"
+            );
+            assert_eq!(nearest.shares(fraction, MASS), [0, MASS, 0, 0], "at {fraction}");
+        }
+    }
+
+    #[test]
     fn kernels_reproduce_straight_lines() {
         // Also where they blur: each has the first moment of a delta. Catmull-Rom reproduces parabolas as well (Keys).
-        for (name, cubic) in KERNELS {
+        for (name, cubic, _) in kernels() {
             for t in [0.0, 0.1, 0.25, 0.5, 0.9] {
                 let moment = |power: i32| -> f64 {
                     let places = [-1.0_f64, 0.0, 1.0, 2.0].map(|place| place.powi(power));
@@ -181,7 +208,7 @@ mod tests {
 
     #[test]
     fn kernels_are_smooth_where_their_pieces_meet() {
-        for (name, cubic) in KERNELS {
+        for (name, cubic, _) in kernels() {
             for knot in [1.0, 2.0] {
                 let step = 1e-7;
                 let before = (cubic.weight(knot) - cubic.weight(knot - step)) / step;

@@ -4,12 +4,12 @@ use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::bilinear::mass;
-use super::cubic::CubicWeights;
+use super::cubic::TexelWeights;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
-use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
-use super::{anisotropic_filter, bilinear, cubic_filter, pixel_filter, sample_filter};
+use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
+use super::{anisotropic_filter, block_filter, fixed_point, pixel_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -27,6 +27,7 @@ const MAX_SIDE: u32 = 256;
 #[derive(Clone, Copy, Debug)]
 pub struct Filter<'a> {
     pixel: PixelSampling,
+    wrap: Wrap,
     pivot: DVec2,
     taps: Taps,
     /// Length of the side that taps lie along, in steps of the map.
@@ -51,7 +52,7 @@ struct FilterLevel<'a> {
     level: &'a MipLevel,
     /// Its number in the pyramid.
     number: usize,
-    /// Its part of [`bilinear::MASS`].
+    /// Its part of [`fixed_point::MASS`].
     mass: i32,
     /// Coordinates at the pivot, in texels; whole numbers are corners of texels for [`PixelSampling::Nearest`], their
     /// centres for all others.
@@ -79,15 +80,16 @@ impl<'a> Filter<'a> {
             if near { level } else { level.flat() }
         };
         let (finer, coarser) = match mass {
-            0 => (prepare(choice.level, bilinear::MASS), None),
-            bilinear::MASS => (prepare(choice.level + 1, bilinear::MASS), None),
+            0 => (prepare(choice.level, fixed_point::MASS), None),
+            fixed_point::MASS => (prepare(choice.level + 1, fixed_point::MASS), None),
             _ => (
-                prepare(choice.level, bilinear::MASS - mass),
+                prepare(choice.level, fixed_point::MASS - mass),
                 Some(prepare(choice.level + 1, mass)),
             ),
         };
         Self {
             pixel,
+            wrap: settings.wrap,
             pivot: if near { map.pivot } else { DVec2::ZERO },
             taps: reading.taps,
             tap_steps: settings.detail.derivatives.step(settings.sample_step),
@@ -134,7 +136,8 @@ impl<'a> Filter<'a> {
         let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
         Plan {
             pixel: self.pixel,
-            cubic: self.pixel.cubic().map(CubicWeights::new),
+            wrap: self.wrap,
+            block: (self.pixel.cubic().is_some() || self.wrap != Wrap::Clamp).then(|| TexelWeights::new(self.pixel)),
             first: origin * side + 0.5 - pivot,
             line: TapLine {
                 taps: self.taps,
@@ -150,7 +153,7 @@ impl<'a> FilterLevel<'a> {
     fn new(numbered: NumberedLevel<'a>, mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
         let NumberedLevel { level, number } = numbered;
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
-        let at_pivot = map.uv * size - bilinear::first_centre(pixel);
+        let at_pivot = map.uv * size - fixed_point::first_centre(pixel);
         let (dx, dy) = (map.dx * size, map.dy * size);
         let usable = |vector: DVec2| vector.is_finite() && vector.abs().max_element() < LARGEST;
         let map = Self {
@@ -199,8 +202,8 @@ impl<'a> FilterLevel<'a> {
 // Inlined into its callers its loops take 3 % more instructions.
 #[inline(never)]
 fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    if let Some(cubic) = &plan.cubic {
-        dispatch!(level, simd => cubic_filter::filter_with(simd, plan, cubic, points, out));
+    if let Some(weights) = &plan.block {
+        dispatch!(level, simd => block_filter::filter_with(simd, plan, weights, points, out));
     } else if plan.line.taps.count == 1 {
         dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));
     } else {

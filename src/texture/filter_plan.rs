@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use super::cubic::CubicWeights;
-use super::{MipLevel, PixelSampling, Taps};
+use super::cubic::TexelWeights;
+use super::wrap::Endless;
+use super::{MipLevel, PixelSampling, Taps, Wrap};
 
 /// Some pixels, and which of their samples count.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,7 @@ pub(super) struct GridLevel<'a> {
     pub(super) level: &'a MipLevel,
     /// Its number in the pyramid.
     pub(super) number: usize,
-    /// Its part of [`super::bilinear::MASS`].
+    /// Its part of [`super::fixed_point::MASS`].
     pub(super) mass: i32,
     pub(super) x: Axis,
     pub(super) y: Axis,
@@ -50,13 +51,22 @@ pub(super) struct TapLine {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan<'a> {
     pub(super) pixel: PixelSampling,
-    /// What that weighs texels by, where it is cubic.
-    pub(super) cubic: Option<CubicWeights>,
+    /// Beyond the border.
+    pub(super) wrap: Wrap,
+    /// What texels are weighed by, where blocks of them are read: by cubic kernels, and across borders.
+    pub(super) block: Option<TexelWeights>,
     /// Sample `[0, 0]` relative to the pivot, in samples.
     pub(super) first: DVec2,
     pub(super) line: TapLine,
     pub(super) finer: GridLevel<'a>,
     pub(super) coarser: Option<GridLevel<'a>>,
+}
+
+impl Plan<'_> {
+    /// An axis as one that goes on for ever, where the texture does.
+    pub(super) fn endless(&self, axis: &Axis) -> Option<Endless> {
+        Endless::new(self.wrap, axis.last, self.pixel)
+    }
 }
 
 impl Axis {

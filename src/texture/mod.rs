@@ -3,13 +3,14 @@
 mod anisotropic_filter;
 mod anisotropy;
 mod bilinear;
+mod block_filter;
 mod course_sampler;
 mod cubic;
-mod cubic_filter;
 mod decode;
 mod detail_settings;
 mod filter;
 mod filter_plan;
+mod fixed_point;
 mod footprint;
 mod level_of_detail;
 mod nearest_sums;
@@ -27,6 +28,7 @@ mod texel_coordinates;
 mod tile;
 mod trace;
 mod uv_map;
+mod wrap;
 
 pub use anisotropy::{Anisotropy, Taps};
 pub use course_sampler::Sampler;
@@ -43,6 +45,7 @@ pub use settings::SamplingSettings;
 pub use tile::{Tile, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
+pub use wrap::Wrap;
 
 use std::sync::OnceLock;
 

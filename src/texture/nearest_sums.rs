@@ -8,7 +8,7 @@
 //!               |~  #           #  ~|                 ~ so close to an edge that rounding might have carried it across
 //! ```
 //!
-//! `bilinear::to_fixed` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
+//! `fixed_point::to_fixed` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
 //! unit: pixels with a sample so close to the edge of a texel are read again by that very function, sample by sample.
 
 #![expect(
@@ -20,10 +20,11 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, u8x16, u16x8, u32x4};
 use glam::DVec2;
 
-use super::PixelSampling;
-use super::bilinear::{FRACTION_BITS, add, to_fixed};
+use super::bilinear::add;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
+use super::fixed_point::{FRACTION_BITS, to_fixed};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
+use super::{PixelSampling, Wrap};
 
 /// Samples of a pixel that take little memory, and as many as there may be.
 pub(super) const FEW: usize = 16;
@@ -68,7 +69,10 @@ struct Found<S: Simd, const N: usize> {
 impl<'a, const N: usize> NearestSamples<'a, N> {
     /// For a plan that reads the nearest texel of one level; `None` where it does not, or numbers are too large.
     pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
-        let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
+        let is_one = plan.pixel == PixelSampling::Nearest
+            && plan.block.is_none()
+            && plan.coarser.is_none()
+            && plan.line.taps.count == 1;
         if !is_one || (side * side) as usize > N {
             return None;
         }
@@ -251,9 +255,15 @@ fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32
             let from_pivot = plan.first + DVec2::new(sample(pixel[0], i), sample(pixel[1], j));
             let at = |axis: &Axis| {
                 let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-                to_fixed(texels, axis.last)
+                to_fixed(texels, axis.last).cast_signed()
             };
-            add(level.level, plan.pixel, [at(&level.x), at(&level.y)], 1, &mut sums);
+            add(
+                level.level,
+                (plan.pixel, Wrap::Clamp),
+                [at(&level.x), at(&level.y)],
+                1,
+                &mut sums,
+            );
         }
     }
     sums.map(|sum: i32| sum.cast_unsigned() << 8)

@@ -14,9 +14,9 @@ use glam::DVec2;
 use super::filter_plan::Plan;
 use super::sample_offsets::{Footing, Footings, Scale};
 use super::{
-    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling,
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, Wrap,
 };
-use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, trace};
+use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, fixed_point, trace};
 use crate::color::Premultiplied16;
 
 /// The colour at one sample: what the kernels do for many.
@@ -27,7 +27,7 @@ pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
         for tap in 0..count {
             let place = trace::place(plan, level, point, tap);
-            bilinear::add(level.level, plan.pixel, place, level.mass, &mut sums);
+            bilinear::add(level.level, (plan.pixel, plan.wrap), place, level.mass, &mut sums);
         }
     }
     let sums = bilinear::clamped(sums, count);
@@ -37,19 +37,28 @@ pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
     })
 }
 
-/// The colour at one sample by the definition, channels in `0.0..=255.0`.
-pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
+/// The colour at one sample by the definition, channels in `0.0..=255.0`; `None` where a texture is repeated so often that its
+/// coordinates have few digits left.
+pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> Option<[f64; 4]> {
     let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
     let count = plan.line.taps.count;
     let mut sums = [0.0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
-        let mass = f64::from(level.mass) / f64::from(bilinear::MASS) / f64::from(count);
+        let mass = f64::from(level.mass) / f64::from(fixed_point::MASS) / f64::from(count);
         for tap in 0..count {
             let [x, y] = [&level.x, &level.y].map(|axis| {
                 let at = axis.at_pivot + from_pivot.x * axis.right + from_pivot.y * axis.down;
-                let offset = axis.tap(&plan.line, tap).clamp(-bilinear::REACH, bilinear::REACH);
-                (at.clamp(-bilinear::REACH, axis.last + bilinear::REACH) + offset).clamp(0.0, axis.last)
+                let offset = axis.tap(&plan.line, tap).clamp(-fixed_point::REACH, fixed_point::REACH);
+                match plan.wrap {
+                    Wrap::Clamp => {
+                        (at.clamp(-fixed_point::REACH, axis.last + fixed_point::REACH) + offset).clamp(0.0, axis.last)
+                    }
+                    Wrap::Repeat | Wrap::Mirror => at + offset,
+                }
             });
+            if !(x.abs().max(y.abs()) < 1e6) {
+                return None;
+            }
             for (right, down) in (0..16).map(|i| (f64::from(i % 4 - 1), f64::from(i / 4 - 1))) {
                 let (column, row) = (x.floor() + right, y.floor() + down);
                 let kernel = |distance: f64| match plan.pixel.cubic() {
@@ -57,7 +66,7 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
                     None => (1.0 - distance.abs()).max(0.0),
                 };
                 let weight = kernel(x - column) * kernel(y - row);
-                let texel = level.level.texel(column as i32, row as i32);
+                let texel = level.level.wrapped(plan.wrap, [column as i32, row as i32]);
                 for (sum, channel) in sums.iter_mut().zip(texel) {
                     *sum += f64::from(channel) * weight * mass;
                 }
@@ -66,7 +75,7 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
     }
     let [r, g, b, alpha] = sums;
     let alpha = alpha.clamp(0.0, 255.0);
-    [r, g, b, 255.0].map(|channel| channel.clamp(0.0, alpha))
+    Some([r, g, b, 255.0].map(|channel| channel.clamp(0.0, alpha)))
 }
 
 /// The sum over the samples of a pixel that `covered` says; what the kernel does for many, by tents instead of tails.
@@ -88,7 +97,7 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
     };
     let total = (samples.len() as i32) << scale.sample_bits;
     let part = coarser.as_ref().map_or(0, |coarser| {
-        (total * coarser.level.mass + bilinear::MASS / 2) / bilinear::MASS
+        (total * coarser.level.mass + fixed_point::MASS / 2) / fixed_point::MASS
     });
     let middle = f64::from(scale.side - 1) / 2.0;
     let center = pixel.map(|pixel| f64::from(pixel) * f64::from(scale.side) + middle);
@@ -231,8 +240,15 @@ pub(super) fn filter<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map:
 
 /// Any way to read a texture under the standard rules; half of them with one tap and no more than the footprint says.
 pub(super) fn settings(u: &mut Unstructured<'_>) -> Result<SamplingSettings> {
+    // As often those that have kernels of their own as any.
+    let is_simple: bool = u.arbitrary()?;
     let plain = SamplingSettings {
-        pixel: *u.choose(&PixelSampling::ALL)?,
+        pixel: *u.choose(if is_simple {
+            &PixelSampling::ALL[..2]
+        } else {
+            &PixelSampling::ALL
+        })?,
+        wrap: if is_simple { Wrap::Clamp } else { *u.choose(&Wrap::ALL)? },
         level: *u.choose(&LevelSampling::ALL)?,
         ..SamplingSettings::default()
     };

@@ -9,15 +9,15 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 
-use super::bilinear::{MASS, MASS_BITS};
-use super::cubic::CubicWeights;
+use super::cubic::TexelWeights;
 use super::filter_plan::{PixelList, Plan};
+use super::fixed_point::{MASS, MASS_BITS};
 use super::nearest_sums::{self, FEW, MANY, NearestSamples};
 use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
 use super::simd_channels::{self, FromColors, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
-use super::{PixelSampling, anisotropic_filter, cubic_filter, sample_filter};
+use super::{PixelSampling, anisotropic_filter, block_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -57,9 +57,9 @@ pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>,
         return;
     }
     let samples = Samples { plan, scale, list };
-    match (Footings::of_plan(plan, scale), &plan.cubic) {
+    match (Footings::of_plan(plan, scale), &plan.block) {
         (Some(footings), _) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
-        (None, Some(cubic)) => dispatch!(level, simd => sum_samples(simd, samples, cubic, sums)),
+        (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, weights, sums)),
         (None, None) if taps == 1 => dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums)),
         (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
     }
@@ -90,11 +90,11 @@ impl FilterSamples for SeveralTaps {
     }
 }
 
-/// With any number of taps.
-impl FilterSamples for CubicWeights {
+/// With any number of taps, of blocks of texels.
+impl FilterSamples for TexelWeights {
     #[inline(always)]
     fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-        cubic_filter::filter_with(simd, plan, self, points, out);
+        block_filter::filter_with(simd, plan, self, points, out);
     }
 }
 
@@ -374,7 +374,7 @@ fn row<S: Simd>(simd: S, texels: &[[u8; 4]]) -> u8x16<S> {
 mod tests {
     use arbtest::arbitrary;
 
-    use super::super::{Filter, PixelSampling, SamplingSettings, oracle};
+    use super::super::{Filter, PixelSampling, SamplingSettings, Wrap, oracle};
     use super::*;
     use crate::simd;
 
@@ -432,6 +432,7 @@ mod tests {
             let grid = oracle::grid(u, &map)?;
             let settings = SamplingSettings {
                 pixel: PixelSampling::Bilinear,
+                wrap: Wrap::Clamp,
                 ..oracle::settings(u)?
             };
             let filter = Filter::new(&pyramid, &map, &settings);
@@ -451,7 +452,8 @@ mod tests {
                 let mut exact = [0.0; 4];
                 for j in (0..grid.side * grid.side).filter(|j| covered(*j)) {
                     let point = [at[0] * grid.side + j % grid.side, at[1] * grid.side + j / grid.side];
-                    for (sum, channel) in exact.iter_mut().zip(oracle::exact_point(&plan, point)) {
+                    let sample = oracle::exact_point(&plan, point).expect("near the border");
+                    for (sum, channel) in exact.iter_mut().zip(sample) {
                         *sum += channel;
                     }
                 }

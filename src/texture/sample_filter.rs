@@ -10,8 +10,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i16x16, i32x8, u8x16, u16x8, u32x4, u64x2};
 
 use super::PixelSampling;
-use super::bilinear::FRACTION_BITS;
 use super::filter_plan::{GridLevel, Plan};
+use super::fixed_point::FRACTION_BITS;
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, round, widen};
 use super::texel_coordinates::{Positions, columns_and_rows};
 
@@ -330,7 +330,10 @@ mod tests {
             let plan = filter.plan(grid);
             for _ in 0..100 {
                 let at = [u.int_in_range(0..=1100)?, u.int_in_range(0..=1100)?];
-                let (found, exact) = (oracle::point(&plan, at), oracle::exact_point(&plan, at));
+                let Some(exact) = oracle::exact_point(&plan, at) else {
+                    continue;
+                };
+                let found = oracle::point(&plan, at);
                 for (found, exact) in found.0.iter().zip(exact) {
                     let error = (f64::from(*found) / 256.0 - exact).abs();
                     worst = worst.max(error);

@@ -1,8 +1,8 @@
 //! Where the samples of a pixel stand in a level: the same for all pixels of a triangle, but for where the pixel is.
 
 use super::PixelSampling;
-use super::bilinear::{MASS, MASS_BITS};
 use super::filter_plan::{Axis, GridLevel, Plan};
+use super::fixed_point::{MASS, MASS_BITS};
 
 /// The most samples along one side of a pixel.
 pub(super) const MAX_SIDE: usize = 16;
@@ -78,9 +78,9 @@ impl Scale {
 
 impl<'a> Footings<'a> {
     /// Those of a plan; `None` where each sample must be filtered: where samples are too far apart, have
-    /// several taps, or read other texels than the four around them.
+    /// several taps, or read other texels than the four around them, be it across a border.
     pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<Self> {
-        if plan.pixel != PixelSampling::Bilinear || plan.line.taps.count > 1 {
+        if plan.pixel != PixelSampling::Bilinear || plan.block.is_some() || plan.line.taps.count > 1 {
             return None;
         }
         Some(Self {

@@ -1,6 +1,6 @@
 //! How textures are sampled.
 
-use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter};
+use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter, Wrap};
 use crate::color::ResolveSpace;
 use crate::rules::Rules;
 
@@ -9,6 +9,8 @@ use crate::rules::Rules;
 pub struct SamplingSettings {
     /// Inside a level.
     pub pixel: PixelSampling,
+    /// Beyond the border.
+    pub wrap: Wrap,
     /// Between levels.
     pub level: LevelSampling,
     /// In which values levels were averaged.
@@ -29,6 +31,7 @@ impl Default for SamplingSettings {
     fn default() -> Self {
         Self {
             pixel: PixelSampling::default(),
+            wrap: Wrap::default(),
             level: LevelSampling::default(),
             pyramid: ResolveSpace::default(),
             pyramid_filter: PyramidFilter::default(),

@@ -9,8 +9,9 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use glam::DVec2;
 
-use super::bilinear::{REACH, TO_FIXED};
 use super::filter_plan::Axis;
+use super::fixed_point::{REACH, TO_FIXED};
+use super::wrap::Endless;
 
 /// The most lanes of 32 bits that a vector has.
 pub(super) const MAX_LANES: usize = 16;
@@ -62,7 +63,7 @@ impl<S: Simd> Positions<S> {
         }
     }
 
-    /// Where samples lie on an axis, inside the level, in fixed point; see `bilinear::to_fixed`.
+    /// Where samples lie on an axis, inside the level, in fixed point; see `fixed_point::to_fixed`.
     #[inline(always)]
     pub(super) fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
         let rounding = Rounding {
@@ -73,7 +74,7 @@ impl<S: Simd> Positions<S> {
         self.round(simd, axis, rounding)
     }
 
-    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `bilinear::tap`.
+    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `fixed_point::tap`.
     #[inline(always)]
     pub(super) fn far(&self, simd: S, axis: &Axis) -> S::i32s {
         self.around(simd, axis, REACH)
@@ -102,6 +103,21 @@ impl<S: Simd> Positions<S> {
         self.round(simd, axis, rounding)
     }
 
+    /// Where samples lie on an axis that goes on for ever, from the corner of its first texel, in the first period, in fixed
+    /// point; see `wrap::place`.
+    #[inline(always)]
+    pub(super) fn endless(&self, simd: S, axis: &Axis, endless: &Endless) -> S::i32s {
+        let half = |half: usize| -> S::i64s {
+            let number = |value| S::f64s::splat(simd, value);
+            let from_corner = self.at(simd, axis, half) + number(endless.first_centre);
+            let periods = (from_corner * number(endless.inverse)).floor();
+            let within = from_corner - periods * number(endless.period);
+            let inside = within.max(number(0.0)).min(number(endless.period));
+            (inside + number(1.5 * TO_FIXED)).bitcast()
+        };
+        half(0).narrow(half(1))
+    }
+
     #[inline(always)]
     fn round(&self, simd: S, axis: &Axis, rounding: Rounding) -> S::i32s {
         let half = self.round_half(simd, axis, rounding, 0);
@@ -110,11 +126,16 @@ impl<S: Simd> Positions<S> {
 
     #[inline(always)]
     fn round_half(&self, simd: S, axis: &Axis, rounding: Rounding, half: usize) -> S::i64s {
-        let right = self.columns[half] * S::f64s::splat(simd, axis.right);
-        let down = self.rows[half] * S::f64s::splat(simd, axis.down);
-        let at = (S::f64s::splat(simd, axis.at_pivot) + right) + down;
+        let at = self.at(simd, axis, half);
         let Rounding { least, most, to_fixed } = rounding;
         let inside = at.max(S::f64s::splat(simd, least)).min(S::f64s::splat(simd, most));
         (inside + S::f64s::splat(simd, to_fixed)).bitcast()
+    }
+
+    #[inline(always)]
+    fn at(&self, simd: S, axis: &Axis, half: usize) -> S::f64s {
+        let right = self.columns[half] * S::f64s::splat(simd, axis.right);
+        let down = self.rows[half] * S::f64s::splat(simd, axis.down);
+        (S::f64s::splat(simd, axis.at_pivot) + right) + down
     }
 }

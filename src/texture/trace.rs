@@ -9,7 +9,7 @@ use super::course_sampler::{Sampler, course_place, course_point, course_weights}
 use super::filter::{Filter, SampleGrid};
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::pyramid::NumberedLevel;
-use super::{PixelSampling, bilinear};
+use super::{PixelSampling, Wrap, bilinear, fixed_point, wrap};
 use crate::color::Premultiplied16;
 
 /// A texel that a sample read.
@@ -30,7 +30,7 @@ pub struct TexelRead {
 pub struct TapRead {
     /// Number of the mip level.
     pub level: usize,
-    /// In texels from the corner of the level's first texel; clamped as the filter clamps. The very number from which the
+    /// In texels from the corner of the level's first texel; clamped or wrapped as the filter does it. The very number from which the
     /// filter decides: the nearest texel is its whole part, the four around it begin at the whole part of half a texel less, and
     /// the sixteen one texel before that.
     pub at: DVec2,
@@ -43,6 +43,8 @@ pub struct TextureReads {
     pub texels: Vec<TexelRead>,
     /// One per level and tap.
     pub taps: Vec<TapRead>,
+    /// What stood beyond the border.
+    pub wrap: Wrap,
 }
 
 /// Gathers what is read.
@@ -57,7 +59,7 @@ impl Filter<'_> {
     pub fn reads(&self, grid: SampleGrid, point: [u16; 2]) -> TextureReads {
         let plan = self.plan(grid);
         let count = plan.line.taps.count;
-        let mut notes = Notes::new(f64::from(bilinear::MASS) * f64::from(count));
+        let mut notes = Notes::new(f64::from(fixed_point::MASS) * f64::from(count), plan.wrap);
         for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
             for tap in 0..count {
                 let place = place(&plan, level, point, tap);
@@ -76,19 +78,19 @@ impl Filter<'_> {
 }
 
 /// Where a tap of a sample lies in a level, in fixed point.
-pub(super) fn place(plan: &Plan<'_>, level: &GridLevel<'_>, point: [u16; 2], tap: u32) -> [u32; 2] {
+pub(super) fn place(plan: &Plan<'_>, level: &GridLevel<'_>, point: [u16; 2], tap: u32) -> [i32; 2] {
     let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
     let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-    [&level.x, &level.y].map(|axis| match plan.line.taps.count {
-        1 => bilinear::to_fixed(at(axis), axis.last),
-        _ => bilinear::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
+    [&level.x, &level.y].map(|axis| {
+        let offset = (plan.line.taps.count > 1).then(|| axis.tap(&plan.line, tap));
+        wrap::place(axis.last, plan.endless(axis), at(axis), offset)
     })
 }
 
 impl Sampler<'_> {
     /// What the course's rules read at `(u, v)`.
     pub fn course_reads(&self, u: f32, v: f32) -> TextureReads {
-        let mut notes = Notes::new(f64::from(self.taps.count));
+        let mut notes = Notes::new(f64::from(self.taps.count), self.wrap);
         let at = DVec2::new(f64::from(u), f64::from(v));
         let finer = NumberedLevel {
             level: self.finer,
@@ -116,16 +118,19 @@ impl Sampler<'_> {
 }
 
 impl Notes {
-    fn new(total: f64) -> Self {
+    fn new(total: f64, wrap: Wrap) -> Self {
         Self {
-            reads: TextureReads::default(),
+            reads: TextureReads {
+                wrap,
+                ..TextureReads::default()
+            },
             total,
         }
     }
 
-    fn tap(&mut self, level: usize, place: [u32; 2], pixel: PixelSampling) {
-        let one = f64::from(1_u32 << bilinear::FRACTION_BITS);
-        let at = DVec2::new(f64::from(place[0]), f64::from(place[1])) / one + bilinear::first_centre(pixel);
+    fn tap(&mut self, level: usize, place: [i32; 2], pixel: PixelSampling) {
+        let one = f64::from(1_u32 << fixed_point::FRACTION_BITS);
+        let at = DVec2::new(f64::from(place[0]), f64::from(place[1])) / one + fixed_point::first_centre(pixel);
         self.reads.taps.push(TapRead { level, at });
     }
 
@@ -133,22 +138,24 @@ impl Notes {
         if weight == 0.0 {
             return;
         }
-        let inside = |at: i32, size: u32| at.max(0).cast_unsigned().min(size - 1);
+        let inside = |at: i32, size: u32| self.reads.wrap.texel(at, size).cast_unsigned();
+        let at = [inside(x, level.width()), inside(y, level.height())];
         self.reads.texels.push(TexelRead {
             level: number,
-            at: [inside(x, level.width()), inside(y, level.height())],
-            color: level.texel(x, y),
+            at,
+            color: level.wrapped(self.reads.wrap, [x, y]),
             weight: weight / self.total,
         });
     }
 
     fn course(&mut self, numbered: NumberedLevel<'_>, pixel: PixelSampling, uv: [f32; 2], weight: f32) {
         let NumberedLevel { level, number } = numbered;
+        let uv = self.reads.wrap.course_inside(uv);
         let ([left, top], [s, t]) = course_place(level, pixel, uv);
         let point = course_point(level, pixel, uv).map(f64::from);
         // Beyond the level its last texel goes on.
         let last = DVec2::new(f64::from(level.width()), f64::from(level.height())) - 0.5;
-        let at = (DVec2::from(point) + bilinear::first_centre(pixel)).min(last);
+        let at = (DVec2::from(point) + fixed_point::first_centre(pixel)).min(last);
         self.reads.taps.push(TapRead { level: number, at });
         // A nearest texel far beyond the level has no neighbour to its right, and reads none.
         let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
@@ -168,7 +175,7 @@ impl Notes {
 
     /// Adds up what was read several times.
     fn finish(self) -> TextureReads {
-        let TextureReads { mut texels, taps } = self.reads;
+        let TextureReads { mut texels, taps, wrap } = self.reads;
         texels.sort_by_key(|texel| (texel.level, texel.at[1], texel.at[0]));
         texels.dedup_by(|next, kept| {
             let same = (next.level, next.at) == (kept.level, kept.at);
@@ -177,7 +184,7 @@ impl Notes {
             }
             same
         });
-        TextureReads { texels, taps }
+        TextureReads { texels, taps, wrap }
     }
 }
 
@@ -218,7 +225,7 @@ fn whole(channel: f64) -> u16 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Anisotropy, SamplingSettings, oracle};
+    use super::super::{Anisotropy, MipPyramid, SamplingSettings, oracle};
     use super::*;
     use crate::rules::Rules;
     use crate::simd;
@@ -239,7 +246,7 @@ mod tests {
                     // Several taps are scaled in 32 bits: the last bit may differ.
                     assert!(found.abs_diff(drawn) <= 1, "{reads:?} is not {color:?}");
                 }
-                check_decided(&reads, filter.plan(grid).pixel);
+                check_decided(&reads, filter.plan(grid).pixel, &pyramid);
                 let weights: f64 = reads.texels.iter().map(|texel| texel.weight).sum();
                 assert!((weights - 1.0).abs() < 1e-9, "weights sum to {weights}");
                 for texel in &reads.texels {
@@ -255,18 +262,22 @@ mod tests {
     }
 
     /// Each texel that weighs anything lies where a tap says that it does.
-    fn check_decided(reads: &TextureReads, pixel: PixelSampling) {
+    fn check_decided(reads: &TextureReads, pixel: PixelSampling, pyramid: &MipPyramid) {
         for texel in &reads.texels {
+            let level = &pyramid.levels()[texel.level];
             let decides = |tap: &TapRead| {
-                let first = (tap.at - bilinear::first_centre(pixel)).floor().max(DVec2::ZERO);
-                let beyond = DVec2::from(texel.at.map(f64::from)) - first;
+                let first = (tap.at - fixed_point::first_centre(pixel)).floor();
                 let [least, most] = match pixel {
-                    PixelSampling::Nearest => [0.0, 0.0],
-                    PixelSampling::Bilinear => [0.0, 1.0],
-                    PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => [-1.0, 2.0],
+                    PixelSampling::Nearest => [0, 0],
+                    PixelSampling::Bilinear => [0, 1],
+                    PixelSampling::CatmullRom | PixelSampling::BSpline | PixelSampling::Mitchell => [-1, 2],
                 };
-                let inside = beyond.cmpge(DVec2::splat(least)).all() && beyond.cmple(DVec2::splat(most)).all();
-                tap.level == texel.level && inside
+                let near = |first: f64, at: u32, side: u32| {
+                    (least..=most).any(|beyond| reads.wrap.texel(first as i32 + beyond, side) == at.cast_signed())
+                };
+                tap.level == texel.level
+                    && near(first.x, texel.at[0], level.width())
+                    && near(first.y, texel.at[1], level.height())
             };
             assert!(reads.taps.iter().any(decides), "{texel:?} lies beside {:?}", reads.taps);
         }
@@ -294,7 +305,7 @@ mod tests {
                 ];
                 let drawn = sampler.sample(uv[0], uv[1]);
                 let reads = sampler.course_reads(uv[0], uv[1]);
-                check_decided(&reads, settings.pixel);
+                check_decided(&reads, settings.pixel, &pyramid);
                 for (found, drawn) in reads.clamped().iter().zip(drawn) {
                     assert!(
                         (found - f64::from(drawn)).abs() < 0.01,

@@ -8,6 +8,7 @@ mod locomotive;
 mod mesh;
 mod outline;
 mod study;
+mod study_kernels;
 mod study_patterns;
 mod study_shading;
 mod study_shown;
@@ -32,6 +33,7 @@ pub(crate) fn scenes() -> Vec<SceneFile> {
         study_patterns::SCENES,
         study_shown::SCENES,
         study_shading::SCENES,
+        study_kernels::SCENES,
     ]
     .concat()
 }

@@ -4,7 +4,7 @@ use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, Ui, 
 
 use super::contributions::LIT;
 use super::look::opaque;
-use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, View};
+use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, Texture, View};
 use crate::raster::Region;
 use crate::texture::MipLevel;
 use crate::viewer::Viewer;
@@ -33,7 +33,13 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     let (Some(texture), Some(View::Triangle { value, .. })) = (&paint.texture, paint.views.get(sample)) else {
         return None;
     };
-    let Interpolated::Texture { uv, taps, texels } = value else {
+    let Interpolated::Texture {
+        uv,
+        wrapped,
+        taps,
+        texels,
+    } = value
+    else {
         return None;
     };
     let level = &texture.main_level()?;
@@ -41,6 +47,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     let image = texture.texels(&frame.picture.scene, level)?;
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH.min(ui.available_width()), HEIGHT), Sense::hover());
     let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
+    // Of a texture that goes on beyond its border the copy is shown that is its own; one that is turned round has its steps
+    // turned, too.
+    let (uv, turned) = wrapped
+        .as_ref()
+        .map_or((*uv, [false; 2]), |wrapped| (wrapped.uv, wrapped.turned));
+    let scale = [0, 1].map(|i| if turned[i] { -scale[i] } else { scale[i] });
     let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);
     let centre = [uv[0] * f64::from(level.size[0]), uv[1] * f64::from(level.size[1])];
     let across = steps.iter().flatten().fold(0.0_f64, |most, step| most.max(step.abs())) * 2.5;
@@ -76,15 +88,19 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
             weight * 100.0
         ));
     }
-    let words = format!(
+    ui.label(RichText::new(legend(texture, level)).size(11.0).weak());
+    place
+}
+
+/// What the view shows.
+fn legend(texture: &Texture, level: &Level) -> String {
+    format!(
         "level {} of {}: yellow the steps of a {} and the footprint in them, red the {}",
         level.number,
         short(&texture.name),
         texture.step,
         if texture.taps > 1 { "taps" } else { "point that is read" }
-    );
-    ui.label(RichText::new(words).size(11.0).weak());
-    place
+    )
 }
 
 /// How many pixels a texel contributes to, once that was found out.

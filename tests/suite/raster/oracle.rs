@@ -5,7 +5,7 @@ use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePatter
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::texture::{
-    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter,
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter, Wrap,
 };
 
 use crate::support::brute_force;
@@ -75,6 +75,7 @@ fn compare_by(
         let (scene, mut settings) = (random(u, SIDE, fills)?, samples(u)?);
         settings.rules = rules;
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
+        settings.texture_wrap = *u.choose(&Wrap::ALL)?;
         settings.level_sampling = *u.choose(&LevelSampling::ALL)?;
         settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;
         settings.detail.derivatives = *u.choose(&Derivatives::ALL)?;

@@ -17,7 +17,9 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
-use rasterscope::texture::{Derivatives, FixedLevel, FootprintExtent, LevelSampling, MipLevel, PixelSampling, Texture};
+use rasterscope::texture::{
+    Derivatives, FixedLevel, FootprintExtent, LevelSampling, MipLevel, PixelSampling, Texture, Wrap,
+};
 
 use crate::support::resolve_filters;
 
@@ -652,6 +654,7 @@ fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> 
             &levels[level.min(last)],
             uv,
             texture.asks.unwrap_or(settings.pixel_sampling),
+            settings.texture_wrap,
         )
     };
     match settings.level_sampling {
@@ -664,8 +667,22 @@ fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> 
     }
 }
 
-fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
-    let texel = |x: f64, y: f64| level.texel(x as i32, y as i32).map(|byte| f64::from(byte) / 255.0);
+fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling, wrap: Wrap) -> Color {
+    // Copies of the texture side by side.
+    let inside = |at: f64, side: u32| {
+        let (at, side) = (at as i32, side.cast_signed());
+        let (copy, within) = (at.div_euclid(side), at.rem_euclid(side));
+        match wrap {
+            Wrap::Clamp => at,
+            Wrap::Repeat => within,
+            Wrap::Mirror if copy % 2 == 0 => within,
+            Wrap::Mirror => side - 1 - within,
+        }
+    };
+    let texel = |x: f64, y: f64| {
+        let texel = level.texel(inside(x, level.width()), inside(y, level.height()));
+        texel.map(|byte| f64::from(byte) / 255.0)
+    };
     let at = uv * DVec2::new(f64::from(level.width()), f64::from(level.height()));
     match sampling {
         PixelSampling::Nearest => texel(at.x.floor(), at.y.floor()),

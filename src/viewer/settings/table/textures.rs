@@ -2,7 +2,7 @@
 
 use crate::color::ResolveSpace;
 use crate::texture::{
-    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter,
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter, Wrap,
 };
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
@@ -27,6 +27,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("pixel-sampling", "pixel sampling", PixelSampling, render.pixel_sampling)
+    },
+    PictureSetting {
+        help: "What a texture shows beyond its border",
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("", "Texture wrap", Control::List)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Filters read across the border then, so that the first texels take on the colour of the last ones; every sample is filtered by itself, which costs up to four times as much",
+            ..SettingCommand::new(
+                "texture-wrap",
+                "Texture wrap",
+                "Goes on beyond a texture's border with its outermost texels, or repeats it, or mirrors it",
+            )
+        }],
+        ..named!("texture-wrap", "wrap", Wrap, render.texture_wrap)
     },
     PictureSetting {
         help: "Which mip levels of a texture are read",

@@ -1,4 +1,5 @@
-//! Filtering samples that read 4 x 4 texels each, by a cubic kernel: with one tap or several.
+//! Filtering samples that read blocks of texels: 4 x 4 by a cubic kernel, and across the border of a texture that is wrapped
+//! 2 x 2 or one; with one tap or several.
 //!
 //! ```text
 //!      o   o   o   o        o texels with their weights, products of a column's and a row's
@@ -10,7 +11,8 @@
 //!
 //! First the weights of many samples are found, in vectors of samples; then their texels are added, in vectors of channels, two
 //! rows and two columns at a time as `sample_filter` does. Each number is that of `bilinear::each`, whatever the vectors' width.
-//! Blocks that reach beyond the level are put together texel by texel.
+//! Blocks that reach beyond the level
+//! are put together texel by texel, by what stands there.
 //!
 //! Some weights are below zero, so that a sum may be no colour. It is clamped once, when everything that a sample reads is in
 //! it: alpha to what there can be, then each premultiplied channel to alpha. So a texel that shines through never becomes
@@ -24,27 +26,30 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8, u8x16, u8x32};
 
-use super::MipLevel;
-use super::bilinear::{FRACTION_BITS, MASS, per_tap, tap_offset, to_fixed};
-use super::cubic::{CubicWeights, WHOLE};
-use super::filter_plan::{GridLevel, Plan};
+use super::bilinear::per_tap;
+use super::cubic::{TexelWeights, WHOLE};
+use super::filter_plan::{Axis, GridLevel, Plan};
+use super::fixed_point::{FRACTION_BITS, MASS, tap_offset, to_fixed};
 use super::sample_filter::{BLOCK, SampleVector, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
 use super::texel_coordinates::{Positions, columns_and_rows};
+use super::wrap::Endless;
+use super::{MipLevel, Wrap};
 
-/// Texels that are read on each axis.
-const SIDE: u32 = 4;
+/// Texels on each axis of the largest block.
+const SIDE: usize = 4;
 /// Stands for the offset of a block that reaches beyond the level.
 const BEYOND: i32 = -1;
 const HALF: i32 = 1 << (FRACTION_BITS - 1);
 
 /// Where the samples of a block read one level.
 struct Cells {
-    /// The first of the 4 x 4 texels of each sample, or [`BEYOND`].
+    /// The first texel of each sample's block, or [`BEYOND`].
     offsets: [i32; BLOCK],
     /// Its column, and its row.
     corners: [[i32; BLOCK]; 2],
     /// The weights of 2 x 2 texels each, as [`Spread::columns`] takes them: upper left, upper right, lower left, lower right.
+    /// Small blocks have the first ones alone.
     weights: [[u64; BLOCK]; 4],
 }
 
@@ -52,7 +57,7 @@ struct Cells {
 #[derive(Clone, Copy)]
 struct Tap<'p> {
     plan: &'p Plan<'p>,
-    cubic: &'p CubicWeights,
+    weights: &'p TexelWeights,
     level: &'p GridLevel<'p>,
     number: u32,
 }
@@ -62,7 +67,7 @@ struct Tap<'p> {
 pub(super) fn filter_with<S: Simd, C: FromColors>(
     simd: S,
     plan: &Plan<'_>,
-    cubic: &CubicWeights,
+    weights: &TexelWeights,
     points: &[[u16; 2]],
     out: &mut [C],
 ) {
@@ -78,13 +83,13 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(
             for number in 0..count {
                 let tap = Tap {
                     plan,
-                    cubic,
+                    weights,
                     level,
                     number,
                 };
                 cells.fill(simd, tap, &centres, points.len());
                 for (i, sum) in sums.iter_mut().enumerate().take(points.len()) {
-                    *sum += cells.sum(simd, spread, level.level, i);
+                    *sum += cells.sum(simd, spread, (plan, level.level), i);
                 }
             }
         }
@@ -114,9 +119,10 @@ fn centres<S: Simd>(simd: S, plan: &Plan<'_>, level: &GridLevel<'_>, points: &[[
         let first = first.min(last);
         let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
         for (centres, axis) in centres.iter_mut().zip([&level.x, &level.y]) {
-            let places = match plan.line.taps.count {
-                1 => at.fixed(simd, axis),
-                _ => at.far(simd, axis),
+            let places = match (plan.endless(axis), plan.line.taps.count) {
+                (Some(endless), _) => at.endless(simd, axis, &endless),
+                (None, 1) => at.fixed(simd, axis),
+                (None, _) => at.far(simd, axis),
             };
             places.store_slice(&mut centres[first..first + lanes]);
         }
@@ -149,47 +155,37 @@ impl Cells {
 
     /// Notes the cells of a tap of up to [`BLOCK`] samples.
     #[inline(always)]
-    fn fill<S: Simd>(
-        &mut self,
-        simd: S,
-        Tap {
-            plan,
-            cubic,
-            level,
-            number: tap_number,
-        }: Tap<'_>,
-        centres: &Centres,
-        count: usize,
-    ) {
+    fn fill<S: Simd>(&mut self, simd: S, tap: Tap<'_>, centres: &Centres, count: usize) {
         let lanes = S::u32s::LEN;
         let last = count.saturating_sub(lanes);
-        let number = |value| S::i32s::splat(simd, value);
-        let axes = [&level.x, &level.y];
-        let offsets = axes.map(|axis| match plan.line.taps.count {
-            1 => 0,
-            _ => tap_offset(axis.tap(&plan.line, tap_number)),
-        });
-        let ends = axes.map(|axis| to_fixed(axis.last, axis.last).cast_signed());
+        let steps = [&tap.level.x, &tap.level.y].map(|axis| Step::new(tap, axis));
         for first in (0..count).step_by(lanes) {
             let first = first.min(last);
             let at = [0, 1].map(|axis| {
                 let centre = S::i32s::from_slice(simd, &centres[axis][first..first + lanes]);
-                (centre + number(offsets[axis])).max(number(0)).min(number(ends[axis]))
+                steps[axis].place(simd, centre)
             });
-            self.note(simd, cubic, level, SampleVector { at, first });
+            self.note(simd, tap, SampleVector { at, first });
         }
     }
 
     /// Notes the cells of a vector of samples.
     #[inline(always)]
-    fn note<S: Simd>(&mut self, simd: S, cubic: &CubicWeights, level: &GridLevel<'_>, vector: SampleVector<S>) {
+    fn note<S: Simd>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) {
+        let Tap {
+            plan, weights, level, ..
+        } = tap;
         let SampleVector { at: [x, y], first } = vector;
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
-        let (left, top) = ((x >> FRACTION_BITS) - 1, (y >> FRACTION_BITS) - 1);
+        let (before, side) = if is_small(plan) { (0, 2) } else { (1, 4) };
+        let (left, top) = (
+            (x >> FRACTION_BITS) - number(before),
+            (y >> FRACTION_BITS) - number(before),
+        );
         left.store_slice(&mut self.corners[0][first..first + lanes]);
         top.store_slice(&mut self.corners[1][first..first + lanes]);
-        let farthest = |size: u32| number(size.cast_signed() - SIDE.cast_signed());
+        let farthest = |size: u32| number(size.cast_signed() - side);
         let inside = left.simd_ge(number(0))
             & top.simd_ge(number(0))
             & left.simd_le(farthest(level.level.width()))
@@ -199,14 +195,20 @@ impl Cells {
         offsets.store_slice(&mut self.offsets[first..first + lanes]);
 
         let fraction = number((1 << FRACTION_BITS) - 1);
-        let columns = weights(simd, cubic, x & fraction);
-        let rows = shares(simd, weights(simd, cubic, y & fraction), number(level.mass));
+        let columns = axis_weights(simd, weights, x & fraction);
+        let rows = shares(simd, axis_weights(simd, weights, y & fraction), number(level.mass));
+        let quarters = if is_small(plan) {
+            // The middle ones.
+            &[(1, 1)][..]
+        } else {
+            &[(0, 0), (0, 2), (2, 0), (2, 2)]
+        };
         let products = rows.map(|row| shares(simd, columns, row));
-        for (quarter, (row, column)) in [(0, 0), (0, 2), (2, 0), (2, 2)].into_iter().enumerate() {
+        for (stored, (row, column)) in self.weights.iter_mut().zip(quarters) {
             // Weights below zero are as many bits in the lower half as in the upper one.
-            let both = |column: usize| products[row][column] & number(0xFFFF) | products[row + 1][column] << 16;
-            let [low, high] = in_columns::<S>(both(column), both(column + 1));
-            let (first, second) = self.weights[quarter][first..first + lanes].split_at_mut(lanes / 2);
+            let both = |column: usize| products[*row][column] & number(0xFFFF) | products[row + 1][column] << 16;
+            let [low, high] = in_columns::<S>(both(*column), both(column + 1));
+            let (first, second) = stored[first..first + lanes].split_at_mut(lanes / 2);
             low.store_slice(first);
             high.store_slice(second);
         }
@@ -214,36 +216,101 @@ impl Cells {
 
     /// Red, green, blue and alpha of sample `i` in the units of the weights: even columns, then odd columns.
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, level: &MipLevel, i: usize) -> i32x8<S> {
+    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, (plan, level): (&Plan<'_>, &MipLevel), i: usize) -> i32x8<S> {
         let i = i % BLOCK;
+        let stride = level.stride() as usize;
+        let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
+        if is_small(plan) {
+            let rows: [u8x16<S>; 2] = if let Ok(offset) = usize::try_from(self.offsets[i]) {
+                // There is room for four.
+                let texels = &level.texels()[offset..][..stride + SIDE];
+                [0, stride].map(|row| u8x16::simd_from(simd, bytes(&texels[row..])))
+            } else {
+                let [upper, lower, ..] = self.beyond(plan.wrap, level, i);
+                [upper, lower].map(|row| u8x16::simd_from(simd, bytes(&row)))
+            };
+            return quarter(rows[0].zip_low(rows[1]), 0);
+        }
         let rows: [u8x16<S>; 4] = if let Ok(offset) = usize::try_from(self.offsets[i]) {
-            let stride = level.stride() as usize;
-            let texels = &level.texels()[offset..][..3 * stride + SIDE as usize];
+            let texels = &level.texels()[offset..][..3 * stride + SIDE];
             [0, 1, 2, 3].map(|row| u8x16::simd_from(simd, bytes(&texels[row * stride..])))
         } else {
-            let rows = beyond(level, [self.corners[0][i], self.corners[1][i]]);
+            let rows = self.beyond(plan.wrap, level, i);
             rows.map(|row| u8x16::simd_from(simd, bytes(&row)))
         };
-        let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
         let upper = quarter(rows[0].zip_low(rows[1]), 0) + quarter(rows[0].zip_high(rows[1]), 1);
         let lower = quarter(rows[2].zip_low(rows[3]), 2) + quarter(rows[2].zip_high(rows[3]), 3);
         upper + lower
     }
+
+    /// A block of which some texels lie beyond the level.
+    #[cold]
+    #[inline(never)]
+    fn beyond(&self, wrap: Wrap, level: &MipLevel, i: usize) -> [[[u8; 4]; SIDE]; SIDE] {
+        let [left, top] = self.corners.map(|corners| corners[i % BLOCK]);
+        [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| level.wrapped(wrap, [left + x, top + y])))
+    }
 }
 
-/// The weights of the first, the third and the fourth texel of an axis; see [`CubicWeights::shares`].
+/// Whether blocks are of 2 x 2 texels.
 #[inline(always)]
-fn weights<S: Simd>(simd: S, cubic: &CubicWeights, fractions: S::i32s) -> [S::i32s; 3] {
+fn is_small(plan: &Plan<'_>) -> bool {
+    plan.pixel.cubic().is_none()
+}
+
+/// How far a tap lies from its samples on an axis, and what becomes of places beyond the border.
+#[derive(Clone, Copy)]
+struct Step {
+    offset: i32,
+    /// The last texel's centre.
+    end: i32,
+    endless: Option<Endless>,
+}
+
+impl Step {
+    #[inline(always)]
+    fn new(Tap { plan, number, .. }: Tap<'_>, axis: &Axis) -> Self {
+        let offset = match plan.line.taps.count {
+            1 => 0.0,
+            _ => axis.tap(&plan.line, number),
+        };
+        let endless = plan.endless(axis);
+        Self {
+            offset: endless.map_or_else(|| tap_offset(offset), |endless| endless.offset(offset)),
+            end: to_fixed(axis.last, axis.last).cast_signed(),
+            endless,
+        }
+    }
+
+    /// Where taps lie whose samples lie there; see `wrap::place`.
+    #[inline(always)]
+    fn place<S: Simd>(&self, simd: S, centre: S::i32s) -> S::i32s {
+        let number = |value| S::i32s::splat(simd, value);
+        let place = centre + number(self.offset);
+        let Some(endless) = &self.endless else {
+            return place.max(number(0)).min(number(self.end));
+        };
+        let period = number(endless.fixed_period);
+        let place = place.simd_lt(number(0)).select(place + period, place);
+        let turned = period - number(1) - place;
+        let place = place.simd_ge(number(endless.turn)).select(turned, place);
+        place - number(endless.fixed_centre)
+    }
+}
+
+/// The weights of the first, the third and the fourth texel of an axis; see [`TexelWeights::shares`].
+#[inline(always)]
+fn axis_weights<S: Simd>(simd: S, weights: &TexelWeights, fractions: S::i32s) -> [S::i32s; 3] {
     let t = S::f32s::float_from(fractions);
     let number = |value| S::f32s::splat(simd, value);
-    cubic.polynomials.map(|[cube, square, linear, constant]| {
+    weights.polynomials.map(|[cube, square, linear, constant]| {
         let weight = ((number(cube) * t + number(square)) * t + number(linear)) * t + number(constant);
         let bits: S::i32s = (weight + number(WHOLE)).bitcast();
         bits - S::i32s::splat(simd, WHOLE.to_bits().cast_signed())
     })
 }
 
-/// How totals are shared by four texels; see [`CubicWeights::shares`].
+/// How totals are shared by four texels; see [`TexelWeights::shares`].
 #[inline(always)]
 fn shares<S: Simd>(simd: S, [first, third, fourth]: [S::i32s; 3], total: S::i32s) -> [S::i32s; 4] {
     let share = |weight: S::i32s| (total * weight + S::i32s::splat(simd, HALF)) >> FRACTION_BITS;
@@ -257,11 +324,4 @@ fn bytes(texels: &[[u8; 4]]) -> [u8; 16] {
     let mut bytes = [0; 16];
     bytes.copy_from_slice(texels[..4].as_flattened());
     bytes
-}
-
-/// A block of which some texels lie beyond the level.
-#[cold]
-#[inline(never)]
-fn beyond(level: &MipLevel, [left, top]: [i32; 2]) -> [[[u8; 4]; 4]; 4] {
-    [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| level.texel(left + x, top + y)))
 }

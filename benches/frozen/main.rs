@@ -2,7 +2,7 @@
 //! engine that must not move a pixel leaves every line as it is; `benches/frozen/run` compares them.
 //!
 //! The groups: six patterns and each resolve space at five rates for each of the rules (`standard`, `course`, `float`), the
-//! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+//! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), cubic kernels and wraps (`kernels`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,7 +16,7 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed, ShadingR
 use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
-use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling, Wrap};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
@@ -69,6 +69,7 @@ fn lines(path: &Path) -> String {
         .map(|rules| (rules.name().to_owned(), sampled(*rules)))
         .collect();
     groups.push(("filters".to_owned(), filtered()));
+    groups.push(("kernels".to_owned(), kernels()));
     groups.push(("patterns".to_owned(), patterned()));
     groups.push(("shaded".to_owned(), shaded()));
     groups.push(("visualised".to_owned(), visualised()));
@@ -134,7 +135,7 @@ fn patterns(rules: Rules) -> &'static [SamplePattern] {
 fn filtered() -> Vec<RenderSettings> {
     let mut all = Vec::new();
     for sample_rate in rates().take(2) {
-        for pixel_sampling in PixelSampling::ALL {
+        for pixel_sampling in [PixelSampling::Nearest, PixelSampling::Bilinear] {
             for level_sampling in LevelSampling::ALL {
                 for anisotropy in [Anisotropy::OFF].into_iter().chain(Anisotropy::STEPS.last().copied()) {
                     for rules in Rules::ALL {
@@ -148,6 +149,34 @@ fn filtered() -> Vec<RenderSettings> {
                             ..RenderSettings::default()
                         });
                     }
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Every kernel beyond every kind of border, with one tap and several, over nothing.
+fn kernels() -> Vec<RenderSettings> {
+    let mut all = Vec::new();
+    for pixel_sampling in PixelSampling::ALL {
+        for texture_wrap in Wrap::ALL {
+            // As it is without being asked for: those are `filters`.
+            if pixel_sampling.cubic().is_none() && texture_wrap == Wrap::Clamp {
+                continue;
+            }
+            for (sample_rate, rules) in rates().skip(1).zip(Rules::ALL) {
+                for anisotropy in [Anisotropy::OFF].into_iter().chain(Anisotropy::STEPS.last().copied()) {
+                    all.push(RenderSettings {
+                        sample_rate,
+                        pixel_sampling,
+                        texture_wrap,
+                        level_sampling: LevelSampling::Linear,
+                        anisotropy,
+                        rules,
+                        background: Rgba::TRANSPARENT,
+                        ..RenderSettings::default()
+                    });
                 }
             }
         }

@@ -28,6 +28,9 @@ pub(super) fn percent(part: f64) -> String {
     if percent > 0.0 && percent < 0.01 {
         return "under 0.01 %".to_owned();
     }
+    if percent < 0.0 && percent > -0.01 {
+        return "above -0.01 %".to_owned();
+    }
     format!("{percent:.2}")
         .trim_end_matches('0')
         .trim_end_matches('.')

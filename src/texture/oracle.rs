@@ -56,7 +56,8 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> Option<[f64; 4]> 
                     Wrap::Repeat | Wrap::Mirror => at + offset,
                 }
             });
-            if !(x.abs().max(y.abs()) < 1e6) {
+            let far = x.abs() + y.abs();
+            if far.is_nan() || far > 1e6 {
                 return None;
             }
             for (right, down) in (0..16).map(|i| (f64::from(i % 4 - 1), f64::from(i / 4 - 1))) {

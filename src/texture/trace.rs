@@ -262,6 +262,7 @@ mod tests {
     }
 
     /// Each texel that weighs anything lies where a tap says that it does.
+    #[expect(clippy::cast_possible_truncation, reason = "a place in a level")]
     fn check_decided(reads: &TextureReads, pixel: PixelSampling, pyramid: &MipPyramid) {
         for texel in &reads.texels {
             let level = &pyramid.levels()[texel.level];

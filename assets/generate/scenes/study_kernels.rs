@@ -35,9 +35,9 @@ fn few_texels() -> String {
         SIDE,
         SIDE,
         &[
-            "A photograph of leaves, and rings of every width, of which few texels are left (16 samples: = three times; M three times: level 2).",
+            "Leaves, and rings of every width, of which few texels are left (16 samples: = three times; M three times: level 2).",
             "What lies between them is a guess. P: nearest guesses squares, bilinear a tent with creases, catmull-rom comes nearest to",
-            "what was there: it goes through the texels and bends between them. mitchell is nearly as good, b-spline softer than bilinear.",
+            "what was there: it goes through the texels and bends between them. mitchell lies between, b-spline is softest.",
             "A pin tells the sixteen texels with their weights, some below zero, and by how much the kernel brings it nearer to the truth.",
         ],
     );
@@ -63,7 +63,7 @@ fn hard_texels() -> String {
         SIDE,
         SIDE,
         &[
-            "Squares and stripes of two colours each, enlarged twenty times: their edges are as sharp as texels are (16 samples: = three times).",
+            "Squares and stripes of two colours, enlarged twenty times: edges as sharp as texels are (16 samples: = three times).",
             "P: nearest is right here, to the last pixel. catmull-rom rings: beside each edge a line is lighter than the light colour and",
             "one darker than the dark one. b-spline never rings; it blurs edges over four texels, and stripes of one texel turn grey.",
             "Not every picture is made of samples of something smooth: signs, tables, pixel art and maps of heights are none.",
@@ -107,8 +107,8 @@ fn beyond_the_border() -> String {
     doc.texture("checker", "checker.png");
     doc.texture("foliage", "foliage.jpg");
     doc.texture("lanes", "lanes.png");
-    // 80 x 40 texels, six units each.
-    let half = dvec2(40.0, 20.0) / 1024.0;
+    // Half of 77 x 38 texels, so that a pair of squares is 200 units wide.
+    let half = dvec2(0.0375, 0.0188);
     doc.texture_quad(
         "checker",
         corners(dvec2(16.0, 16.0), dvec2(496.0, 256.0)),

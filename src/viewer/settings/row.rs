@@ -99,6 +99,8 @@ pub enum Control {
     WideButtons(usize),
     /// A list that drops down.
     List,
+    /// The same of short names, which leave room to the control beside it.
+    ShortList,
     /// A number to drag or to type.
     Number {
         /// The smallest and the largest.
@@ -118,6 +120,7 @@ impl Control {
         match self {
             Self::Buttons => 2.7,
             Self::List => 1.7,
+            Self::ShortList => 1.25,
             _ => 1.0,
         }
     }

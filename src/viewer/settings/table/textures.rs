@@ -18,7 +18,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Catmull-Rom is the sharpest and rings at edges, the B-spline blurs, Mitchell lies between; sixteen texels cost about three times as much as the nearest",
+            more: "Catmull-Rom is the sharpest and rings at edges, the B-spline blurs, Mitchell lies between; sixteen texels cost about seven times as much as the nearest",
             keys: &[Chord::char('p')],
             ..SettingCommand::new(
                 "pixel-sampling",
@@ -32,11 +32,11 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "What a texture shows beyond its border",
         about: About::Textures,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("", "Texture wrap", Control::List)),
+        panel: Some(PanelRow::new("", "Texture wrap", Control::ShortList)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Filters read across the border then, so that the first texels take on the colour of the last ones; every sample is filtered by itself, which costs up to four times as much",
+            more: "Filters read across the border then, so that the first texels take on the colour of the last ones; every sample is filtered by itself, which costs several times as much",
             ..SettingCommand::new(
                 "texture-wrap",
                 "Texture wrap",

@@ -65,12 +65,18 @@ impl Viewer {
             Command::Scenes(command) => self.opening().apply(command),
             Command::Lesson(command) => self.opening().lessons().apply(command),
             Command::Inspector(command) => self.hand().apply_inspector(command),
-            Command::Profile(command) => self.hand().apply_profile(command),
+            Command::Profile(command) => {
+                self.hand().apply_profile(command);
+                self.board.open &= !self.profiling.open;
+            }
             Command::Board(command) => {
                 let copied = self.apply_board(command);
                 return tell_copied(&mut self.chrome, copied);
             }
-            Command::Spectrum(command) => self.hand().apply_spectrum(command),
+            Command::Spectrum(command) => {
+                self.hand().apply_spectrum(command);
+                self.board.open &= !self.spectrum.open;
+            }
             Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
             Command::Export(ExportCommand::OpenFolder) => {
                 return vec![Effect::OpenFolder(self.export.saver.folder_to_show())];

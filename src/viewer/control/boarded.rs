@@ -247,9 +247,12 @@ impl Viewer {
         match command {
             BoardCommand::Show(toggle) => {
                 // What is hidden is not open to the eye.
-                let open = toggle.of(self.board().is_open());
-                self.board.open = open;
-                if open && self.board.entries.is_empty() {
+                if !toggle.of(self.board().is_open()) {
+                    self.board.open = false;
+                    return None;
+                }
+                self.show_board();
+                if self.board.entries.is_empty() {
                     self.board.entries.push(own);
                 }
             }
@@ -310,6 +313,9 @@ impl Viewer {
     fn show_board(&mut self) {
         self.board.open = true;
         self.chrome.hidden = false;
+        // Cards would lie on each other.
+        self.profiling.show(false);
+        self.spectrum.open = false;
     }
 
     /// Has measured what is to be seen of the board; gives up what is not any more.

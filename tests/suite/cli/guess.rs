@@ -71,7 +71,7 @@ impl Study {
                 Cause::LevelSampling(sampling) => renderer.reads.level_sampling = sampling,
                 Cause::FlippedV => renderer.flips_v = true,
                 Cause::Resolve(space) => renderer.resolve = space,
-                Cause::Shading(shading) => renderer.shades_once = shading == ShadingRate::Centre,
+                Cause::Shading(shading) => renderer.shading = shading,
                 _ => {}
             }
         }

@@ -10,7 +10,7 @@
 use glam::{DAffine2, DVec2};
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{FillRule, Polygon, ViewTransform};
-use rasterscope::raster::Framebuffer;
+use rasterscope::raster::{Framebuffer, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
@@ -35,7 +35,7 @@ pub(crate) struct Foreign {
     /// By the course's, edges belong to everybody, samples are truncated, texels are addressed by `w - 1`.
     pub(crate) rules: Rules,
     /// Colours are those of the pixel's centre, wherever samples lie.
-    pub(crate) shades_once: bool,
+    pub(crate) shading: ShadingRate,
     /// How textures are read.
     pub(crate) reads: RenderSettings,
 }
@@ -58,7 +58,7 @@ impl Foreign {
             resolve: ResolveSpace::Stored,
             flips_v: false,
             rules: Rules::Standard,
-            shades_once: false,
+            shading: ShadingRate::Sample,
             reads: settings,
         }
     }
@@ -157,7 +157,7 @@ impl Foreign {
                     return None;
                 }
             }
-            let shaded = if self.shades_once { at.floor() + 0.5 } else { at };
+            let shaded = if self.shading.is_once() { at.floor() + 0.5 } else { at };
             Some(color(weights_at(shaded), corners))
         });
     }

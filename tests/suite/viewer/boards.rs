@@ -10,7 +10,7 @@ use rasterscope::scene::{DialectChoice, load};
 use rasterscope::viewer::script::{Script, ViewerStage, play};
 use rasterscope::viewer::{
     AbCommand, Against, Axis, BoardCommand, BoardNumbers, BoardSort, Command, Effect, InspectorCommand, MessageKind,
-    Toggle, ViewCommand, ViewNumbers, WindowCommand,
+    ProfileCommand, SpectrumCommand, Toggle, ViewCommand, ViewNumbers, WindowCommand,
 };
 
 use crate::support::session::{SQUARE, Session, TRIANGLES, set};
@@ -88,6 +88,33 @@ const AROUND_PIN: Region = Region {
     width: 32,
     height: 32,
 };
+
+/// Their cards would lie on each other.
+#[test]
+fn board_profile_and_spectrum_close_each_other() {
+    let mut session = session();
+    let commands = [
+        board(BoardCommand::Show(Toggle::On)),
+        Command::Profile(ProfileCommand::Show(Toggle::On)),
+        Command::Spectrum(SpectrumCommand::Show(Toggle::On)),
+    ];
+    // Each after each of the others.
+    for index in [0, 1, 2, 0, 2, 1, 0] {
+        session.run(commands[index].clone());
+        let viewer = &session.viewer;
+        let open = [
+            viewer.board().is_open(),
+            viewer.profile().is_open(),
+            viewer.spectrum().is_open(),
+        ];
+        assert_eq!(
+            open,
+            [0, 1, 2].map(|other| other == index),
+            "after {:?}",
+            commands[index]
+        );
+    }
+}
 
 #[test]
 fn board_measures_the_region_around_the_pin_against_the_truth() {

@@ -353,7 +353,7 @@ mod tests {
             let number = u32::try_from(index).expect("a small picture");
             0xFF00_0000 | number.wrapping_mul(2_654_435_761) >> 8
         };
-        let guess = guessed(random, Guess::BUDGET);
+        let guess = guessed(random, Duration::from_mins(2));
         assert_eq!((guess.causes.as_slice(), guess.stopped), (&[][..], false), "{guess:?}");
         assert_eq!(guess.after, guess.before, "nothing is explained");
     }

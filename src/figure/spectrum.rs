@@ -59,7 +59,8 @@ pub fn draw_spectrum(analysis: &SpectrumAnalysis, title: &str) -> Framebuffer {
 fn plot(analysis: &SpectrumAnalysis) -> Framebuffer {
     let mut plot = analysis.picture(SIDE);
     let reach = analysis.reach();
-    let place = |frequency: [f64; 2]| (DVec2::from(frequency) / reach + 1.0) / 2.0 * f64::from(SIDE);
+    // In the middle of pixels, where lines are sharp.
+    let place = |frequency: [f64; 2]| ((DVec2::from(frequency) / reach + 1.0) / 2.0 * f64::from(SIDE)).floor() + 0.5;
     let corners = analysis.nyquist().into_iter().flatten().map(place);
     let corners: Vec<DVec2> = corners.collect();
     for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
@@ -130,10 +131,10 @@ mod tests {
 
     #[test]
     fn figure_marks_waves_and_the_box() {
-        // Stripes of four texels, two texels to a pixel.
+        // Stripes of four texels, and as many texels to a pixel: the wave lies outside of the box.
         let texels = (0..64 * 64).map(|i| if (i % 4) < 2 { [0, 0, 0, 255] } else { [255; 4] });
         let level = MipLevel::new(64, 64, texels.collect());
-        let analysis = SpectrumAnalysis::of_level(&level, [10, 10], DAffine2::from_scale(DVec2::splat(2.0)));
+        let analysis = SpectrumAnalysis::of_level(&level, [10, 10], DAffine2::from_scale(DVec2::splat(4.0)));
         let picture = draw_spectrum(&analysis, "stripes");
         let top = picture.height() - draw_legend(&legend(&analysis), 1.0).height() - BESIDE[1] - BELOW - SIDE;
         let at = |[x, y]: [f64; 2]| {
@@ -150,9 +151,9 @@ mod tests {
         assert!(light(at([0.25, 0.0])) > 150, "the wave: {:?}", at([0.25, 0.0]));
         assert!(light(at([0.1, 0.13])) < 60, "nothing: {:?}", at([0.1, 0.13]));
         assert!(
-            light(at([0.1, 0.25])) > 200,
-            "the box at a quarter: {:?}",
-            at([0.1, 0.25])
+            light(at([0.05, 0.125])) > 200,
+            "the box at an eighth: {:?}",
+            at([0.05, 0.125])
         );
     }
 }

@@ -37,7 +37,10 @@ pub(super) fn nodes(session: &mut Session) -> Vec<Node> {
 pub(super) fn place_of(session: &mut Session, name: &str) -> DVec2 {
     let nodes = nodes(session);
     let node = nodes.iter().find(|node| node.label() == Some(name));
-    let bounds = node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {name}"));
+    let bounds = node.and_then(Node::bounds).unwrap_or_else(|| {
+        let names: Vec<&str> = nodes.iter().filter_map(Node::label).collect();
+        panic!("no {name} among {names:?}")
+    });
     dvec2(bounds.x0 + bounds.x1, bounds.y0 + bounds.y1) / 2.0
 }
 

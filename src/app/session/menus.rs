@@ -294,7 +294,7 @@ fn menu_fits_windows_with_large_letters() {
 
 #[test]
 fn lists_lie_beside_the_lists_that_they_open_from() {
-    for (window, steps) in [([800, 600], 0), ([800, 684], 4), ([800, 684], 8), ([1280, 1024], 8)] {
+    for (window, steps) in [([800, 600], 0), ([800, 684], 4), ([800, 684], 8), ([1280, 1092], 8)] {
         let mut session = session(Vec::new(), window);
         for _ in 0..steps {
             session.command(Command::Window(WindowCommand::StepInterfaceScale { up: true }));

@@ -14,7 +14,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "How a texture is read inside a mip level",
         about: About::Textures,
         told: Told::Always,
-        panel: Some(PanelRow::new("Pixel", "Pixel sampling", Control::List)),
+        panel: Some(PanelRow::new("Pixel", "Pixel sampling of textures", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,

@@ -4,7 +4,6 @@ use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::bilinear::mass;
-use super::cubic::TexelWeights;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
@@ -137,7 +136,6 @@ impl<'a> Filter<'a> {
         Plan {
             pixel: self.pixel,
             wrap: self.wrap,
-            block: (self.pixel.cubic().is_some() || self.wrap != Wrap::Clamp).then(|| TexelWeights::new(self.pixel)),
             first: origin * side + 0.5 - pivot,
             line: TapLine {
                 taps: self.taps,
@@ -202,8 +200,8 @@ impl<'a> FilterLevel<'a> {
 // Inlined into its callers its loops take 3 % more instructions.
 #[inline(never)]
 fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    if let Some(weights) = &plan.block {
-        dispatch!(level, simd => block_filter::filter_with(simd, plan, weights, points, out));
+    if let Some(weights) = plan.block() {
+        dispatch!(level, simd => block_filter::filter_with(simd, plan, &weights, points, out));
     } else if plan.line.taps.count == 1 {
         dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));
     } else {

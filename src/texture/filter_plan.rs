@@ -53,8 +53,6 @@ pub(super) struct Plan<'a> {
     pub(super) pixel: PixelSampling,
     /// Beyond the border.
     pub(super) wrap: Wrap,
-    /// What texels are weighed by, where blocks of them are read: by cubic kernels, and across borders.
-    pub(super) block: Option<TexelWeights>,
     /// Sample `[0, 0]` relative to the pivot, in samples.
     pub(super) first: DVec2,
     pub(super) line: TapLine,
@@ -63,6 +61,17 @@ pub(super) struct Plan<'a> {
 }
 
 impl Plan<'_> {
+    /// Whether blocks of texels are read: by cubic kernels, and across borders.
+    pub(super) fn reads_blocks(&self) -> bool {
+        self.pixel.cubic().is_some() || self.wrap != Wrap::Clamp
+    }
+
+    /// What texels are weighed by where blocks of them are read.
+    // Not kept: plans are copied, and most need none.
+    pub(super) fn block(&self) -> Option<TexelWeights> {
+        self.reads_blocks().then(|| TexelWeights::new(self.pixel))
+    }
+
     /// An axis as one that goes on for ever, where the texture does.
     pub(super) fn endless(&self, axis: &Axis) -> Option<Endless> {
         Endless::new(self.wrap, axis.last, self.pixel)

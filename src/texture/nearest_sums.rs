@@ -70,7 +70,7 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
     /// For a plan that reads the nearest texel of one level; `None` where it does not, or numbers are too large.
     pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
         let is_one = plan.pixel == PixelSampling::Nearest
-            && plan.block.is_none()
+            && !plan.reads_blocks()
             && plan.coarser.is_none()
             && plan.line.taps.count == 1;
         if !is_one || (side * side) as usize > N {

@@ -57,9 +57,9 @@ pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>,
         return;
     }
     let samples = Samples { plan, scale, list };
-    match (Footings::of_plan(plan, scale), &plan.block) {
+    match (Footings::of_plan(plan, scale), plan.block()) {
         (Some(footings), _) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
-        (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, weights, sums)),
+        (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, &weights, sums)),
         (None, None) if taps == 1 => dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums)),
         (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
     }

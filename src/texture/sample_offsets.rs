@@ -80,7 +80,7 @@ impl<'a> Footings<'a> {
     /// Those of a plan; `None` where each sample must be filtered: where samples are too far apart, have
     /// several taps, or read other texels than the four around them, be it across a border.
     pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<Self> {
-        if plan.pixel != PixelSampling::Bilinear || plan.block.is_some() || plan.line.taps.count > 1 {
+        if plan.pixel != PixelSampling::Bilinear || plan.reads_blocks() || plan.line.taps.count > 1 {
             return None;
         }
         Some(Self {

@@ -59,7 +59,7 @@ fn comparison_with_the_truth() {
     );
     let title = session.viewer.both().title();
     assert!(title.contains("A against the truth: sample rate 1 | 256"), "{title}");
-    session.run(step("pixel-sampling", 1.0));
+    session.run(step("pixel-sampling", -1.0));
     let truth = RenderSettings {
         pixel_sampling: PixelSampling::Nearest,
         ..truth

@@ -29,11 +29,11 @@ use fearless_simd::{Simd, i32x8, u8x16, u8x32};
 use super::bilinear::per_tap;
 use super::cubic::{TexelWeights, WHOLE};
 use super::filter_plan::{Axis, GridLevel, Plan};
-use super::fixed_point::{FRACTION_BITS, MASS, tap_offset, to_fixed};
+use super::fixed_point::{FRACTION_BITS, MASS, tap_offset};
 use super::sample_filter::{BLOCK, SampleVector, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
 use super::texel_coordinates::{Positions, columns_and_rows};
-use super::wrap::Endless;
+use super::wrap::{Endless, outside};
 use super::{MipLevel, Wrap};
 
 /// Texels on each axis of the largest block.
@@ -121,7 +121,7 @@ fn centres<S: Simd>(simd: S, plan: &Plan<'_>, level: &GridLevel<'_>, points: &[[
         for (centres, axis) in centres.iter_mut().zip([&level.x, &level.y]) {
             let places = match (plan.endless(axis), plan.line.taps.count) {
                 (Some(endless), _) => at.endless(simd, axis, &endless),
-                (None, 1) => at.fixed(simd, axis),
+                (None, 1) => at.near(simd, axis, FRACTION_BITS),
                 (None, _) => at.far(simd, axis),
             };
             places.store_slice(&mut centres[first..first + lanes]);
@@ -262,8 +262,8 @@ fn is_small(plan: &Plan<'_>) -> bool {
 #[derive(Clone, Copy)]
 struct Step {
     offset: i32,
-    /// The last texel's centre.
-    end: i32,
+    /// Between these lie places where the border's texels go on.
+    ends: [i32; 2],
     endless: Option<Endless>,
 }
 
@@ -277,7 +277,7 @@ impl Step {
         let endless = plan.endless(axis);
         Self {
             offset: endless.map_or_else(|| tap_offset(offset), |endless| endless.offset(offset)),
-            end: to_fixed(axis.last, axis.last).cast_signed(),
+            ends: [-outside(plan.pixel), axis.last + outside(plan.pixel)].map(tap_offset),
             endless,
         }
     }
@@ -288,7 +288,7 @@ impl Step {
         let number = |value| S::i32s::splat(simd, value);
         let place = centre + number(self.offset);
         let Some(endless) = &self.endless else {
-            return place.max(number(0)).min(number(self.end));
+            return place.max(number(self.ends[0])).min(number(self.ends[1]));
         };
         let period = number(endless.fixed_period);
         let place = place.simd_lt(number(0)).select(place + period, place);

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::bilinear::mass;
-use super::wrap::Endless;
 use super::{Cubic, Footprint, PixelSampling, Reading, SamplingSettings, Taps, Wrap};
 use super::{MipLevel, MipPyramid, bilinear, fixed_point, wrap};
 use crate::color::Premultiplied16;
@@ -93,7 +92,7 @@ impl<'a> Sampler<'a> {
             let offset = self.along * size * self.taps.place(tap);
             let place = |at: f64, offset: f64, last: f64| {
                 let offset = (self.taps.count > 1).then_some(offset);
-                wrap::place(last, Endless::new(self.wrap, last, self.pixel), at, offset)
+                wrap::place(last, (self.wrap, self.pixel), at, offset)
             };
             let place = [place(at.x, offset.x, last.x), place(at.y, offset.y, last.y)];
             bilinear::add(level, (self.pixel, self.wrap), place, mass, sums);
@@ -126,7 +125,7 @@ pub(super) fn course_point(level: &MipLevel, pixel: PixelSampling, [u, v]: [f32;
     let (right, bottom) = (level.width() as f32 - 1.0, level.height() as f32 - 1.0);
     match pixel {
         PixelSampling::Nearest => [(u * right + 0.5).max(0.0), (v * bottom + 0.5).max(0.0)],
-        // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
+        // No point lies beyond the outermost centres: the course clamps `u` and `v`.
         _ => [(u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom)],
     }
 }

@@ -36,15 +36,6 @@ pub(super) fn to_fixed(texels: f64, last: f64) -> u32 {
     (texels.max(0.0).min(last) + TO_FIXED).to_bits() as u32
 }
 
-/// Where a tap lies that is `offset` texels from a sample at `texels`: both are rounded, then added and clamped.
-///
-/// Neither counts as more than [`REACH`] texels beyond the level: from there on taps read its border.
-#[inline]
-pub(super) fn tap(texels: f64, offset: f64, last: f64) -> u32 {
-    let at = signed(texels, -REACH, last + REACH) + tap_offset(offset);
-    at.clamp(0, to_fixed(last, last).cast_signed()).cast_unsigned()
-}
-
 /// The distance of a tap from its sample in fixed point.
 #[inline]
 pub(super) fn tap_offset(texels: f64) -> i32 {

@@ -51,7 +51,8 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> Option<[f64; 4]> 
                 let offset = axis.tap(&plan.line, tap).clamp(-fixed_point::REACH, fixed_point::REACH);
                 match plan.wrap {
                     Wrap::Clamp => {
-                        (at.clamp(-fixed_point::REACH, axis.last + fixed_point::REACH) + offset).clamp(0.0, axis.last)
+                        let at = at.clamp(-fixed_point::REACH, axis.last + fixed_point::REACH) + offset;
+                        at.clamp(-4.0, axis.last + 4.0)
                     }
                     Wrap::Repeat | Wrap::Mirror => at + offset,
                 }

@@ -74,7 +74,7 @@ impl<S: Simd> Positions<S> {
         self.round(simd, axis, rounding)
     }
 
-    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `fixed_point::tap`.
+    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `wrap::place`.
     #[inline(always)]
     pub(super) fn far(&self, simd: S, axis: &Axis) -> S::i32s {
         self.around(simd, axis, REACH)

@@ -83,7 +83,7 @@ pub(super) fn place(plan: &Plan<'_>, level: &GridLevel<'_>, point: [u16; 2], tap
     let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
     [&level.x, &level.y].map(|axis| {
         let offset = (plan.line.taps.count > 1).then(|| axis.tap(&plan.line, tap));
-        wrap::place(axis.last, plan.endless(axis), at(axis), offset)
+        wrap::place(axis.last, (plan.wrap, plan.pixel), at(axis), offset)
     })
 }
 

@@ -13,7 +13,8 @@
 
 use super::MipLevel;
 use super::PixelSampling;
-use super::fixed_point::{first_centre, signed, tap, tap_offset, to_fixed};
+use super::cubic::Cubic;
+use super::fixed_point::{REACH, first_centre, signed, tap_offset};
 
 /// What a texture shows beyond its border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -133,13 +134,26 @@ impl Endless {
     }
 }
 
-/// Where a tap lies on an axis whose last texel is `last`, in fixed point; `offset` texels from a sample at `at`, where there are several taps. By
-/// [`Wrap::Clamp`] inside the level, else up to half a texel outside.
-pub(super) fn place(last: f64, endless: Option<Endless>, at: f64, offset: Option<f64>) -> i32 {
-    match (endless, offset) {
-        (Some(endless), _) => endless.place(at, endless.offset(offset.unwrap_or(0.0))),
-        (None, None) => to_fixed(at, last).cast_signed(),
-        (None, Some(offset)) => tap(at, offset, last).cast_signed(),
+/// How far beyond the centre of an outermost texel it still matters where a point lies, in texels, where that texel goes on:
+/// so far a cubic kernel reaches to the texels inside.
+pub(super) fn outside(pixel: PixelSampling) -> f64 {
+    pixel.cubic().map_or(0.0, |_| Cubic::RADIUS)
+}
+
+/// Where a tap lies on an axis whose last texel is `last`, in fixed point; `offset` texels from a sample at `at`, where there
+/// are several taps: both are rounded, then added. By [`Wrap::Clamp`] as far outside the level as [`outside`] says, else up to
+/// half a texel. A sample counts as at most [`REACH`] texels beyond the level: from there on taps read its border.
+pub(super) fn place(last: f64, (wrap, pixel): (Wrap, PixelSampling), at: f64, offset: Option<f64>) -> i32 {
+    if let Some(endless) = Endless::new(wrap, last, pixel) {
+        return endless.place(at, endless.offset(offset.unwrap_or(0.0)));
+    }
+    let [least, most] = [-outside(pixel), last + outside(pixel)];
+    match offset {
+        None => signed(at, least, most),
+        Some(offset) => {
+            let at = signed(at, -REACH, last + REACH) + tap_offset(offset);
+            at.clamp(signed(least, least, most), signed(most, least, most))
+        }
     }
 }
 

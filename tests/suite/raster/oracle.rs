@@ -124,24 +124,19 @@ fn oracle_agrees_on_translucent_layers_within_one_level() {
 #[test]
 fn oracle_agrees_on_colours_and_textures_within_one_level() {
     // 32-bit interpolation may land on the other side of a texel's border: a sample in thousands, never a pattern.
-    // Those that are repeated have borders everywhere, where others go on in the colour of their last texel.
-    let mut found = [(300, 0, 0), (2000, 0, 0)];
+    let (mut pixels, mut different) = (0, 0);
     compare(Fills::Everything, 2500, |fast, slow, (settings, what)| {
         let (largest, count) = difference(fast, slow, 1);
         // Every tap may land there; it weighs less for that.
         let most = 8 * settings.anisotropy.taps().min(4);
         assert!(count < most as usize, "{count} pixels, largest {largest}, {what}");
-        let (_, pixels, different) = &mut found[usize::from(settings.texture_wrap == Wrap::Clamp)];
-        *pixels += fast.pixels().len();
-        *different += count;
+        pixels += fast.pixels().len();
+        different += count;
     });
-    for (one_in, pixels, different) in found {
-        assert!(pixels > 0, "some of each were drawn");
-        assert!(
-            different * one_in <= pixels,
-            "{different} of {pixels} pixels differ by more than one level"
-        );
-    }
+    assert!(
+        different * 2000 <= pixels,
+        "{different} of {pixels} pixels differ by more than one level"
+    );
 }
 
 #[test]

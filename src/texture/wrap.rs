@@ -199,11 +199,25 @@ mod tests {
     }
 
     #[test]
+    fn clamped_places_reach_outside_as_far_as_the_kernel() {
+        let one = f64::from(1 << FRACTION_BITS);
+        for (pixel, least, most) in [(PixelSampling::Bilinear, 0.0, 4.0), (PixelSampling::BSpline, -2.0, 6.0)] {
+            for at in [-9.0, -1.25, -0.5, 0.0, 3.5, 4.75, 5.5, 1e9] {
+                let expected = f64::clamp(at, least, most) * one;
+                for offset in [None, Some(0.0)] {
+                    let found = place(4.0, (Wrap::Clamp, pixel), at, offset);
+                    assert!((f64::from(found) - expected).abs() < 0.5, "{pixel:?} at {at}: {found}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn places_are_those_of_texels_everywhere() {
         for wrap in [Wrap::Repeat, Wrap::Mirror] {
-            let endless = Endless::new(wrap, 4.0, PixelSampling::Nearest);
+            let read = (wrap, PixelSampling::Nearest);
             for texel in -23..23 {
-                let place = |at: f64, offset| place(4.0, endless, at, offset) >> FRACTION_BITS;
+                let place = |at: f64, offset| place(4.0, read, at, offset) >> FRACTION_BITS;
                 let middle = f64::from(texel) + 0.5;
                 assert_eq!(place(middle, None), wrap.texel(texel, 5), "{wrap:?} of {texel}");
                 for tap in [-17.0, -3.0, 2.0, 11.0] {
@@ -215,7 +229,7 @@ mod tests {
                 }
             }
             for absurd in [f64::NAN, f64::INFINITY, -1e300, 1e18, 4.999_999_999] {
-                let place = place(4.0, endless, absurd, Some(-REACH)) >> FRACTION_BITS;
+                let place = place(4.0, read, absurd, Some(-REACH)) >> FRACTION_BITS;
                 assert!((0..5).contains(&place), "{wrap:?} at {absurd}: {place}");
             }
         }

@@ -103,9 +103,9 @@ impl Default for RenderSettings {
 
 impl RenderSettings {
     /// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules,
-    /// background, how a texture is continued between its texels and beyond its border, what samples weigh and in which values they are averaged
-    /// are the picture's own: what is then left of a difference is sampling. Only [`Rules::Float`] gives way to the standard
-    /// rules: no number of samples closes its pinholes.
+    /// background, how a texture is continued between its texels and beyond its border, what samples weigh and in which
+    /// values they are averaged are the picture's own: what is then left of a difference is sampling. Only [`Rules::Float`]
+    /// gives way to the standard rules: no number of samples closes its pinholes.
     #[must_use]
     pub fn truth(self) -> Self {
         Self {

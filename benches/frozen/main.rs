@@ -2,7 +2,8 @@
 //! engine that must not move a pixel leaves every line as it is; `benches/frozen/run` compares them.
 //!
 //! The groups: six patterns and each resolve space at five rates for each of the rules (`standard`, `course`, `float`), the
-//! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), cubic kernels and wraps (`kernels`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+//! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), cubic kernels and wraps
+//! (`kernels`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
 use std::fs;

@@ -1,8 +1,9 @@
 //! Why a pixel has its colour: samples, fragments, edges, weights, footprint, texels.
 //!
 //! Replays for one pixel the very functions that draw frames; it has no arithmetic of its own. [`Explanation`] is the
-//! report, in numbers, with what would help where [`Explanation::advised`] made it; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Contributions`] goes the
-//! other way: from a texel to the pixels around that read it.
+//! report, in numbers, with what would help where [`Explanation::advised`] made it; [`Explanation::text`] says it in words,
+//! [`Explanation::markdown`] for a write-up. [`Contributions`] goes the other way: from a texel to the pixels around that
+//! read it.
 
 mod accumulation;
 mod advice;

@@ -220,8 +220,8 @@ pub struct Paint {
     pub pattern: Option<PatternUse>,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
-    /// Of the topmost one that is seen, where it does not cover all of the pixel: how wide it is there and beside it in its thinnest
-    /// direction, in pixels.
+    /// Of the topmost one that is seen, where it does not cover all of the pixel: how wide it is there and beside it in its
+    /// thinnest direction, in pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
 }

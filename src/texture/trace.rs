@@ -21,7 +21,8 @@ pub struct TexelRead {
     pub at: [u32; 2],
     /// Premultiplied red, green, blue, alpha.
     pub color: [u8; 4],
-    /// Its part of the colour; the parts of a sample sum to one. Cubic kernels weigh some texels below zero, and others above one.
+    /// Its part of the colour; the parts of a sample sum to one. Cubic kernels weigh some texels below zero, and others
+    /// above one.
     pub weight: f64,
 }
 
@@ -30,9 +31,9 @@ pub struct TexelRead {
 pub struct TapRead {
     /// Number of the mip level.
     pub level: usize,
-    /// In texels from the corner of the level's first texel; clamped or wrapped as the filter does it. The very number from which the
-    /// filter decides: the nearest texel is its whole part, the four around it begin at the whole part of half a texel less, and
-    /// the sixteen one texel before that.
+    /// In texels from the corner of the level's first texel; clamped or wrapped as the filter does it. The very number from
+    /// which the filter decides: the nearest texel is its whole part, the four around it begin at the whole part of half a
+    /// texel less, and the sixteen one texel before that.
     pub at: DVec2,
 }
 

@@ -60,8 +60,9 @@ impl std::fmt::Debug for BoardTiles {
 }
 
 impl Grid {
-    /// For so many tiles of `side` x `side` pixels: as large as they all fit in `room` points, and no larger than is of use. Where
-    /// they would be tiny, they scroll. `None` where not even one fits. `captions` tells how many lines captions take in a width.
+    /// For so many tiles of `side` x `side` pixels: as large as they all fit in `room` points, and no larger than is of
+    /// use. Where they would be tiny, they scroll. `None` where not even one fits. `captions` tells how many lines captions
+    /// take in a width.
     pub(super) fn of(
         (count, side): (usize, u32),
         scale: f32,

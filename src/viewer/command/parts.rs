@@ -160,7 +160,8 @@ pub enum InspectorCommand {
     SetRegion(u32),
     /// This many window pixels along each side of a magnified pixel, kept within the inspector's limits.
     SetMagnification(u32),
-    /// Raises the magnification by this many steps, or lowers it where the number is below zero; the inset's size stays about the same.
+    /// Raises the magnification by this many steps, or lowers it where the number is below zero; the inset's size stays
+    /// about the same.
     StepMagnification(i32),
     /// Pins the pixel under the pointer and opens the inspector; unpins if that pixel is pinned already.
     PinUnderPointer,

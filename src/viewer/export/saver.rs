@@ -1,5 +1,5 @@
-//! Screenshots: PNG files named by a template, at first the time to the millisecond, that tell how they were made and never replace another
-//! file.
+//! Screenshots: PNG files named by a template, at first the time to the millisecond, that tell how they were made and never
+//! replace another file.
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! The corner of the picture where a card lies.
 
-use egui::{Align2, Rect, Vec2};
+use egui::{Align2, Context, Rect, Vec2};
 
 /// The corners where it may lie, the best first: words and settings stand on the left.
 const CORNERS: [Align2; 4] = [
@@ -14,7 +14,11 @@ pub(super) const APART: f32 = 16.0;
 
 /// Where a card is.
 #[derive(Debug, Default)]
-pub(super) struct CardCorner(Option<Align2>);
+pub(super) struct CardCorner {
+    at: Option<Align2>,
+    /// How large it was drawn, in points.
+    size: Vec2,
+}
 
 impl CardCorner {
     /// Whether a card of `size` fits into a corner of `room` where nothing is in its way.
@@ -28,13 +32,21 @@ impl CardCorner {
     /// is. `in_way` tells how much is in a place.
     pub(super) fn choose<T: Ord + Default>(&mut self, size: Vec2, room: Rect, in_way: impl Fn(Rect) -> T) -> Align2 {
         let in_way = |corner: &Align2| in_way(corner.align_size_within_rect(size, room).expand(APART));
-        let stays = self.0.filter(|corner| in_way(corner) == T::default());
+        let stays = self.at.filter(|corner| in_way(corner) == T::default());
         let corner = stays.unwrap_or_else(|| {
             let best = CORNERS.into_iter().min_by_key(in_way);
             best.unwrap_or(Align2::RIGHT_BOTTOM)
         });
-        self.0 = Some(corner);
+        self.at = Some(corner);
         corner
+    }
+
+    /// Notes how the card was drawn. Its corner is found by the size that it had: where that has changed, it is drawn once more.
+    pub(super) fn drawn(&mut self, ctx: &Context, card: Rect) {
+        if self.size != card.size() {
+            self.size = card.size();
+            ctx.request_repaint();
+        }
     }
 }
 
@@ -42,6 +54,22 @@ impl CardCorner {
 mod tests {
     use super::*;
     use egui::{pos2, vec2};
+
+    #[test]
+    fn card_that_grew_is_drawn_once_more() {
+        let ctx = Context::default();
+        let mut corner = CardCorner::default();
+        let mut asks = |height: f32| {
+            let card = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, height));
+            let mut output = ctx.run_ui(egui::RawInput::default(), |_| corner.drawn(&ctx, card));
+            output.textures_delta.clear();
+            output.viewport_output.values().any(|view| view.repaint_delay.is_zero())
+        };
+        // Whoever asks once is drawn twice.
+        assert!((0..4).any(|_| !asks(80.0)), "as it was");
+        assert!(asks(200.0), "it grew");
+        assert!((0..4).any(|_| !asks(200.0)), "and rests");
+    }
 
     #[test]
     fn card_stays_until_something_comes_there() {

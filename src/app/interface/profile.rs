@@ -115,6 +115,7 @@ impl ProfileCard {
                     numbers(ui, &curves, viewer.profile().channel());
                 });
             });
+        self.corner.drawn(ui.ctx(), area.response.rect);
         let line = along(viewer, ui.pixels_per_point());
         // Each pane has its own.
         let pieces = line.chunks(usize::from(PARTS) + 1).flat_map(|line| line.windows(2));

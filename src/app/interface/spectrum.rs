@@ -91,6 +91,7 @@ impl SpectrumCard {
                     }
                 });
             });
+        self.corner.drawn(ui.ctx(), area.response.rect);
         Shown {
             taken: Some(area.response.rect),
             reading,

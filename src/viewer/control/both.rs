@@ -174,7 +174,8 @@ impl<'a> Both<'a> {
             let size = [picture.pixels.width(), picture.pixels.height()];
             return (a.picture.size == size).then_some([&a.pixels, &picture.pixels]);
         }
-        let b = self.ab.drawing.as_ref()?.frame()?;
+        // Without a window B's drawing is kept as it is, even where nothing is compared any more.
+        let b = self.ab.drawn_other()?.frame()?;
         let in_step = match self.ab.own_dialect_of_b(self.settings) {
             None => a.picture.is_seen_as(&b.picture),
             Some(_) => a.picture.shows_document_of(&b.picture),
@@ -188,7 +189,7 @@ impl<'a> Both<'a> {
         let a = Arc::clone(self.frames.drawing.shared_frame()?) as SharedPicture;
         let b = match self.ab.other.as_ref()? {
             Other::Picture(picture) => Arc::clone(picture) as SharedPicture,
-            _ => Arc::clone(self.ab.drawing.as_ref()?.shared_frame()?) as SharedPicture,
+            _ => Arc::clone(self.ab.drawn_other()?.shared_frame()?) as SharedPicture,
         };
         Some([a, b])
     }

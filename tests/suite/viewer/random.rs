@@ -3,6 +3,9 @@
 use rasterscope::viewer::{BoardCommand, ViewCommand, WindowCommand};
 use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, ProfileCommand, SceneCommand};
 use std::path::PathBuf;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
 
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DVec2, dvec2};
@@ -104,6 +107,26 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
     })
 }
 
+/// Takes down what is done and ends the tests where that never ends: a test that hangs says neither where nor why. Dropping
+/// what it returns calls it off.
+fn watch() -> Sender<String> {
+    let (tell, told) = channel::<String>();
+    thread::spawn(move || {
+        let mut done = Vec::new();
+        loop {
+            match told.recv_timeout(Duration::from_secs(120)) {
+                Ok(step) => done.push(step),
+                Err(RecvTimeoutError::Disconnected) => return,
+                Err(RecvTimeoutError::Timeout) => {
+                    eprintln!("the viewer waits for ever after {}", done.join(", "));
+                    std::process::abort();
+                }
+            }
+        }
+    });
+    tell
+}
+
 #[test]
 fn random_commands_never_break_the_viewer() {
     let session = Session::open(&[TRIANGLES, "<svg", SQUARE], [40, 30]);
@@ -118,8 +141,11 @@ fn random_commands_never_break_the_viewer() {
         };
         let mut viewer = Viewer::new(options).unwrap();
         let mut drawn: Option<(u64, Framebuffer)> = None;
+        let watched = watch();
         for _ in 0..u.int_in_range(1..=40)? {
-            let _ = viewer.apply(command(u)?);
+            let command = command(u)?;
+            let _ = watched.send(format!("{command:?}"));
+            let _ = viewer.apply(command);
             let _ = (
                 viewer.pixels().status(),
                 viewer.both().title(),

@@ -38,6 +38,21 @@ fn comparison_without_a_window_or_a_scene_ends() {
 }
 
 #[test]
+fn comparison_that_is_closed_without_a_window_is_not_waited_for() {
+    let mut session = Session::open(&[TRIANGLES], WINDOW);
+    session.keys(&["d"]);
+    let _ = session
+        .viewer
+        .apply(Command::Window(WindowCommand::Resize([WINDOW[0], 0])));
+    for _ in 0..2 {
+        let _ = session.viewer.apply(Command::Window(WindowCommand::Escape));
+    }
+    assert!(session.viewer.ab().other().is_none(), "nothing is compared any more");
+    session.viewer.poll();
+    assert!(session.viewer.is_settled(), "there is nothing to measure");
+}
+
+#[test]
 fn comparison_with_the_truth() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     session.keys(&["p", "l", "t", "."]);

@@ -2,6 +2,7 @@
 
 use rasterscope::viewer::{BoardCommand, ViewCommand, WindowCommand};
 use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, ProfileCommand, SceneCommand};
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
@@ -111,19 +112,20 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
 /// what it returns calls it off.
 fn watch() -> Sender<String> {
     let (tell, told) = channel::<String>();
-    thread::spawn(move || {
+    let watch = move || {
         let mut done = Vec::new();
         loop {
-            match told.recv_timeout(Duration::from_secs(120)) {
+            match told.recv_timeout(Duration::from_mins(2)) {
                 Ok(step) => done.push(step),
                 Err(RecvTimeoutError::Disconnected) => return,
                 Err(RecvTimeoutError::Timeout) => {
-                    eprintln!("the viewer waits for ever after {}", done.join(", "));
+                    let _ = writeln!(io::stderr(), "the viewer waits for ever after {}", done.join(", "));
                     std::process::abort();
                 }
             }
         }
-    });
+    };
+    thread::Builder::new().name("watch".to_owned()).spawn(watch).unwrap();
     tell
 }
 

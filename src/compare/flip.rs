@@ -35,10 +35,8 @@ impl Pair<'_> {
         let pixels = f64::from(width) * f64::from(height);
         let observer = Observer::new();
         let total = sum(Region::of_size([width, height]), cancel, |tile| {
-            if self.alike(tile, MARGIN) {
-                return 0.0;
-            }
-            observer.errors(self, tile).map(f64::from).sum()
+            let errors = |part| observer.errors(self, part).map(f64::from).sum();
+            self.sum_where_unlike(tile, MARGIN, 0.0, &errors)
         });
         let total = total?;
         Some(if pixels > 0.0 { total / pixels } else { 0.0 })

@@ -38,12 +38,10 @@ impl Pair<'_> {
         let windows = f64::from(centres.width) * f64::from(centres.height);
         let kernels = radius.map(gaussian);
         let total = sum(centres, cancel, |tile| {
-            if self.alike(tile, RADIUS) {
-                f64::from(tile.width) * f64::from(tile.height)
-            } else {
-                let [a, b] = [self.a, self.b].map(|frame| luma(frame, tile));
-                similarity(&a, &b, (tile.width + 2 * RADIUS) as usize, &kernels)
-            }
+            self.sum_where_unlike(tile, RADIUS, 1.0, &|part| {
+                let [a, b] = [self.a, self.b].map(|frame| luma(frame, part));
+                similarity(&a, &b, (part.width + 2 * RADIUS) as usize, &kernels)
+            })
         });
         Some(total? / windows)
     }

@@ -42,6 +42,7 @@
 //! | [`compare`] | two frames | differences, error metrics, a guess at their cause; one by itself: an edge's profile, its spectrum |
 //! | [`inspect`] | one pixel | why it has its colour: samples, fragments, edges, texels, and what would help |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
+//! | [`post`] | finished pixels | pixels with smoother edges |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |
 //! | [`raster`] | screen-space primitives | resolved pixels |
 //! | [`texture`] | images | colours at a footprint |
@@ -72,6 +73,7 @@ pub mod geometry;
 pub mod inspect;
 pub mod memory;
 pub mod plain;
+pub mod post;
 pub mod raster;
 pub mod render;
 pub mod rules;

@@ -6,6 +6,7 @@ mod parts;
 mod regions;
 mod replay;
 mod screen;
+mod smoothed;
 mod tiles;
 mod timing;
 mod visualisation;
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 
 use crate::color::{BlendMode, ResolveSpace, Rgba};
 use crate::geometry::ViewTransform;
+use crate::post::{self, PostProcess};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
     PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
@@ -27,9 +29,10 @@ use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, Py
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
 use parts::chunks;
-pub use regions::{Subject, draw_regions, refine};
+pub use regions::{Subject, draw_regions, draw_resolved, refine};
 pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
 use screen::Screen;
+pub use smoothed::widened;
 pub use timing::{Repeats, median, milliseconds, time_draws};
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
@@ -68,6 +71,8 @@ pub struct RenderSettings {
     pub filter_radius: Option<FilterRadius>,
     /// In which values the samples of a pixel are averaged.
     pub resolve: ResolveSpace,
+    /// What is done to the finished pixels; pictures of something else than colours are left as they are.
+    pub post_process: PostProcess,
     /// What the pixels show.
     pub visualisation: Visualisation,
     /// What lies below the first primitive.
@@ -94,6 +99,7 @@ impl Default for RenderSettings {
             resolve_filter: ResolveFilter::default(),
             filter_radius: None,
             resolve: ResolveSpace::default(),
+            post_process: PostProcess::default(),
             visualisation: Visualisation::default(),
             background: Rgba::WHITE,
             outline: true,
@@ -117,6 +123,7 @@ impl RenderSettings {
             pyramid_filter: PyramidFilter::default(),
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
+            post_process: PostProcess::None,
             rules: match self.rules {
                 Rules::Float => Rules::Standard,
                 rules @ (Rules::Standard | Rules::Course) => rules,
@@ -139,6 +146,14 @@ impl RenderSettings {
         self.resolve_filter.sized(self.filter_radius)
     }
 
+    /// In which values the finished pixels of the picture are blended, where they are, whatever is shown instead.
+    pub(crate) fn smoothing(&self) -> Option<post::Values> {
+        (self.post_process == PostProcess::Smaa).then_some(post::Values {
+            space: self.resolve,
+            rules: self.rules,
+        })
+    }
+
     /// How many pixels beside its own a pixel takes samples from, in each direction.
     pub(crate) fn margin(&self) -> f64 {
         self.filter().margin().into()
@@ -154,7 +169,7 @@ pub struct FrameStats {
     pub bin: Duration,
     /// Coverage and shading, tile by tile.
     pub raster: Duration,
-    /// Samples to pixels, tile by tile.
+    /// Samples to pixels, tile by tile, and what is done to all pixels after that.
     pub resolve: Duration,
     /// Triangles and polygons that reached the tiles.
     pub triangles: u64,
@@ -200,7 +215,11 @@ pub fn draw_cancellable(
 ) -> Option<FrameStats> {
     let subject = Subject { scene, view, settings };
     let size = [frame.width(), frame.height()];
-    rasterized(&subject, size, |list| list.rasterize(frame, &cancel.0))
+    rasterized(&subject, size, |list| {
+        let mut times = list.rasterize(frame, &cancel.0)?;
+        times.resolve += smoothed::whole(settings, frame);
+        Some(times)
+    })
 }
 
 /// As [`draw_cancellable`], but resolves into `surface`: as many pixels as the frame's, row by row, opaque where the
@@ -215,7 +234,15 @@ pub fn draw_onto(
     cancel: &CancelToken,
 ) -> Option<FrameStats> {
     let size = [frame.width(), frame.height()];
-    rasterized(subject, size, |list| list.rasterize_onto(surface, frame, &cancel.0))
+    rasterized(subject, size, |list| {
+        if smoothed::of_frame(subject.settings).is_none() {
+            return list.rasterize_onto(surface, frame, &cancel.0);
+        }
+        let mut times = list.rasterize(frame, &cancel.0)?;
+        times.resolve += smoothed::whole(subject.settings, frame);
+        surface.copy_from_slice(frame.pixels());
+        Some(times)
+    })
 }
 
 /// Makes the list of a frame of `size` pixels, and has it drawn.

@@ -1,11 +1,16 @@
 //! One pixel drawn with many settings: what is far from it is left out once, and nothing is noted.
 
+use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::replay::{bounds, shines_through, touch};
+use super::smoothed;
 use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settings, sources};
 use crate::geometry::ViewTransform;
+use crate::post;
 use crate::raster::{ChunkBuilder, DisplayList, ListContext, SizedFilter};
 use crate::scene::{Composite, PrimitiveKind, Scene};
 
@@ -22,29 +27,20 @@ pub struct Nearby<'a> {
     pixel: [u32; 2],
     /// Indices of the primitives, in painter's order.
     primitives: Vec<u32>,
+    /// Of those near the pixels, too, that decide about a smoothed one.
+    around: OnceLock<Vec<u32>>,
 }
 
 impl<'a> Nearby<'a> {
     /// Of a frame of `size` pixels, in which the pixel must lie.
     pub fn new(subject: &Subject<'a>, size: [u32; 2], pixel: [u32; 2]) -> Self {
-        let Subject { scene, view, settings } = *subject;
-        let screen = Screen::new(view, settings, size);
-        let corner = pixel.map(f64::from);
-        let near = [DVec2::from(corner) - REACH, DVec2::from(corner) + 1.0 + REACH];
-        let wanted = scene.primitives.par_iter().enumerate().filter(|(_, primitive)| {
-            let around = ends(&screen, &primitive.kind);
-            around.is_none_or(|around| touch(around, near))
-        });
-        let mut primitives: Vec<u32> = wanted.map(|(index, _)| number(index)).collect();
-        primitives.extend(shining(scene, &screen, size));
-        primitives.sort_unstable();
-        primitives.dedup();
         Self {
-            scene,
-            view,
+            scene: subject.scene,
+            view: subject.view,
             size,
             pixel,
-            primitives: without_empty_layers(scene, &primitives),
+            primitives: primitives(subject, size, pixel, REACH),
+            around: OnceLock::new(),
         }
     }
 
@@ -60,19 +56,56 @@ impl<'a> Nearby<'a> {
     /// The pixel `0xAARRGGBB`, the bytes of a whole frame with these settings; it is the picture's, whatever they show
     /// instead. `None` where the pixel lies outside the frame.
     pub fn pixel(&self, settings: &RenderSettings) -> Option<u32> {
+        let Some(values) = settings.smoothing() else {
+            let [x, y] = self.pixel;
+            return self.list(&self.primitives, settings).pixel(x, y);
+        };
+        let subject = Subject {
+            scene: self.scene,
+            view: self.view,
+            settings,
+        };
+        let reach = REACH + f64::from(post::REACH);
+        let around = self
+            .around
+            .get_or_init(|| primitives(&subject, self.size, self.pixel, reach));
+        let list = self.list(around, settings);
+        smoothed::pixel(self.size, self.pixel, values, |region, publish| {
+            list.rasterize_tiles(&[region], self.pixel, &AtomicBool::new(false), &publish);
+        })
+    }
+
+    /// What paints some of the primitives.
+    fn list(&self, primitives: &[u32], settings: &RenderSettings) -> DisplayList<'a> {
         let raster = raster_settings(settings);
         let context = ListContext::new(self.size, &raster);
         let screen = Screen::new(self.view, settings, self.size);
-        let mut builder = ChunkBuilder::new(&context, self.primitives.len());
-        for index in &self.primitives {
+        let mut builder = ChunkBuilder::new(&context, primitives.len());
+        for index in primitives {
             builder.set_source(*index);
             add(&mut builder, &screen, &self.scene.primitives[*index as usize].kind);
         }
         let mut list = vec![builder.finish()];
         list.extend(outline(self.scene, &context, &screen, settings));
-        let [x, y] = self.pixel;
-        DisplayList::new(context, raster, list, sources(self.scene, self.view, settings)).pixel(x, y)
+        DisplayList::new(context, raster, list, sources(self.scene, self.view, settings))
     }
+}
+
+/// The primitives that may paint pixels at most `reach` from one, by their indices.
+fn primitives(subject: &Subject<'_>, size: [u32; 2], pixel: [u32; 2], reach: f64) -> Vec<u32> {
+    let Subject { scene, view, settings } = *subject;
+    let screen = Screen::new(view, settings, size);
+    let corner = DVec2::from(pixel.map(f64::from));
+    let near = [corner - reach, corner + 1.0 + reach];
+    let wanted = scene.primitives.par_iter().enumerate().filter(|(_, primitive)| {
+        let around = ends(&screen, &primitive.kind);
+        around.is_none_or(|around| touch(around, near))
+    });
+    let mut primitives: Vec<u32> = wanted.map(|(index, _)| number(index)).collect();
+    primitives.extend(shining(scene, &screen, size));
+    primitives.sort_unstable();
+    primitives.dedup();
+    without_empty_layers(scene, &primitives)
 }
 
 /// The box around what a primitive paints, but for a pixel; `None` for layers.

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use super::smoothed::{self, Cells};
 use super::{CancelToken, FrameStats, RenderSettings, display_list};
 use crate::geometry::ViewTransform;
 use crate::raster::{Framebuffer, Region};
@@ -22,6 +23,21 @@ pub struct Subject<'a> {
 /// Draws the pixels of `regions` and leaves the rest of `frame` as it is; they are the bytes of [`super::draw`] of the
 /// whole frame. `None` once `cancel` says so: then the regions are unfinished.
 pub fn draw_regions(
+    subject: &Subject<'_>,
+    frame: &mut Framebuffer,
+    regions: &[Region],
+    cancel: &CancelToken,
+) -> Option<FrameStats> {
+    if let Some(values) = smoothed::of_frame(subject.settings) {
+        return smoothed::regions(frame, regions, values, |resolved, around| {
+            draw_resolved(subject, resolved, around, cancel)
+        });
+    }
+    draw_resolved(subject, frame, regions, cancel)
+}
+
+/// As [`draw_regions`], but leaves pixels as the resolve made them, whatever the settings do to them after that.
+pub fn draw_resolved(
     subject: &Subject<'_>,
     frame: &mut Framebuffer,
     regions: &[Region],
@@ -53,7 +69,14 @@ pub fn refine(
     publish: impl Fn(Region, &[u32]) + Sync,
 ) -> Option<FrameStats> {
     let wanted = &[Region::of_size(size)];
-    tiles(subject, size, TileOrder { wanted, from }, cancel, &publish)
+    let order = TileOrder { wanted, from };
+    if let Some(values) = smoothed::of_frame(subject.settings) {
+        let cells = Cells::new(size, values);
+        return tiles(subject, size, order, cancel, &|tile, pixels| {
+            cells.take(tile, pixels, &publish);
+        });
+    }
+    tiles(subject, size, order, cancel, &publish)
 }
 
 /// Which regions are drawn, and the pixel that tiles are nearest to which come first.

@@ -23,7 +23,7 @@ const ROOMS: &[Room] = &[
     Room {
         name: "cli",
         rooms: &[
-            "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
+            "app", "viewer", "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color",
             "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[
@@ -44,8 +44,8 @@ const ROOMS: &[Room] = &[
     Room {
         name: "app",
         rooms: &[
-            "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
-            "rules", "simd", "plain", "memory",
+            "viewer", "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color",
+            "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[
             "winit",
@@ -62,15 +62,15 @@ const ROOMS: &[Room] = &[
     Room {
         name: "viewer",
         rooms: &[
-            "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
-            "simd", "plain", "memory",
+            "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry",
+            "rules", "simd", "plain", "memory",
         ],
         crates: &["image", "jiff", "toml", "pulldown_cmark"],
     },
     Room {
         name: "figure",
         rooms: &[
-            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+            "compare", "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd",
             "plain", "memory",
         ],
         crates: &[
@@ -86,21 +86,21 @@ const ROOMS: &[Room] = &[
     Room {
         name: "compare",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &["rustfft"],
     },
     Room {
         name: "inspect",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &["serde"],
     },
     Room {
         name: "render",
         rooms: &[
-            "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+            "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[],
     },
@@ -117,6 +117,11 @@ const ROOMS: &[Room] = &[
             "data_url",
             "sha2",
         ],
+    },
+    Room {
+        name: "post",
+        rooms: &["color", "rules"],
+        crates: &[],
     },
     Room {
         name: "raster",
@@ -282,7 +287,8 @@ fn architecture_doors_open_downwards_only() {
 const BENCHES: Room = Room {
     name: "benches",
     rooms: &[
-        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+        "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+        "memory",
     ],
     // usvg is the peers' reader too, and they get the typefaces that we have.
     crates: &["epaint_default_fonts", "serde_json", "sha2", "usvg"],

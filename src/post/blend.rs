@@ -1,0 +1,80 @@
+//! Pixels and their neighbours by weight.
+
+use super::areas::ONE;
+use super::weights::Weights;
+use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
+use crate::rules::Rules;
+
+/// In which values pixels are blended, and how these become bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Values {
+    /// As the samples of the picture are averaged.
+    pub space: ResolveSpace,
+    /// As its means are rounded.
+    pub rules: Rules,
+}
+
+/// The weights around a pixel, in parts of [`ONE`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Around {
+    pub(super) left: u16,
+    pub(super) right: u16,
+    pub(super) above: u16,
+    pub(super) below: u16,
+}
+
+/// What of two opposite neighbours is blended in, the left or upper one first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Blend {
+    /// Whether they stand in the pixel's row.
+    pub(super) is_across: bool,
+    pub(super) weights: [u16; 2],
+}
+
+impl Around {
+    /// From the weights at the edges of a pixel, of the one on its right and of the one below.
+    #[inline]
+    pub(super) fn new(own: Weights, right: Weights, below: Weights) -> Self {
+        Self {
+            left: own.left[0],
+            right: right.left[1],
+            above: own.top[0],
+            below: below.top[1],
+        }
+    }
+
+    /// Only neighbours along one axis are blended in: those of the greatest weight.
+    #[inline]
+    pub(super) fn blend(self) -> Option<Blend> {
+        let is_across = self.left.max(self.right) > self.above.max(self.below);
+        let weights = if is_across {
+            [self.left, self.right]
+        } else {
+            [self.above, self.below]
+        };
+        (weights != [0; 2]).then_some(Blend { is_across, weights })
+    }
+}
+
+impl Blend {
+    /// What the pixel itself and the two neighbours weigh: where both are blended in, each counts by its weight.
+    pub(super) fn shares(self) -> [i64; 3] {
+        let one = i64::from(ONE);
+        let [first, second] = self.weights.map(i64::from);
+        [
+            first * (one - first) + second * (one - second),
+            first * first,
+            second * second,
+        ]
+    }
+
+    /// The pixel `0xAARRGGBB` that becomes of one and its neighbours.
+    pub(super) fn pixel(self, own: u32, neighbours: [u32; 2], values: Values) -> u32 {
+        let mut sum = WeightedSum::default();
+        for (weight, pixel) in self.shares().into_iter().zip([own, neighbours[0], neighbours[1]]) {
+            let [a, r, g, b] = pixel.to_be_bytes();
+            sum.add(weight, values.space.parts(Premultiplied16::from_bytes([r, g, b, a])));
+        }
+        values.space.weighted_pixel(sum, values.rules)
+    }
+}

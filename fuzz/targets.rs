@@ -12,6 +12,7 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::figure::Record;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Detail, Explanation, Question};
+use rasterscope::post::PostProcess;
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{self, RenderSettings, Subject};
 use rasterscope::rules::Rules;
@@ -248,6 +249,7 @@ impl Choices {
             anisotropy: Anisotropy::new(taps).expect("a number of taps"),
             rules: self.among(Rules::ALL.as_slice()),
             resolve: self.among(&[ResolveSpace::Stored, ResolveSpace::Linear]),
+            post_process: self.among(&PostProcess::ALL),
             ..RenderSettings::default()
         }
     }

@@ -3,6 +3,7 @@
 
 use super::explanation::Question;
 use super::model::{Cure, Explanation, Setting, Truth};
+use crate::post::PostProcess;
 use crate::raster::{SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
@@ -61,10 +62,18 @@ impl Explanation {
                 .collect();
             truth.cures.sort_by(|a, b| b.nearer.total_cmp(&a.nearer));
             let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
-            truth.cures.retain(|cure| cure.nearer >= best * WORTH_A_WORD);
+            truth.cures.retain(|cure| cure.nearer >= best * cure.worth_a_word());
             truth.cures.truncate(MOST_CURES);
         }
         Some(truth)
+    }
+}
+
+impl Cure {
+    /// The part of what the best setting does that this one has to do. A guess has to fit as well as samples do.
+    fn worth_a_word(&self) -> f64 {
+        let is_guess = self.setting == Setting::PostProcess && self.value == PostProcess::Smaa.name();
+        if is_guess { ENOUGH } else { WORTH_A_WORD }
     }
 }
 
@@ -112,6 +121,7 @@ fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(
         (Setting::SampleRate, rates(own)),
         (Setting::Pattern, patterns(own)),
         (Setting::ShadingRate, shading_rates(own)),
+        (Setting::PostProcess, post_processes(own)),
     ];
     if reads_textures {
         all.extend(of_textures(own));
@@ -177,6 +187,16 @@ fn shading_rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
             };
             (shading.name().to_owned(), settings)
         })
+        .collect()
+}
+
+/// The other ways to leave or to change finished pixels; these are made for one sample per pixel.
+fn post_processes(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let is_sensible = |process: &PostProcess| *process == PostProcess::None || own.sample_rate == SampleRate::ONE;
+    PostProcess::ALL
+        .into_iter()
+        .filter(|process| *process != own.post_process && is_sensible(process))
+        .map(|post_process| (post_process.name().to_owned(), RenderSettings { post_process, ..*own }))
         .collect()
 }
 

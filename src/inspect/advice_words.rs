@@ -84,6 +84,10 @@ impl Explanation {
                 )
             }),
             Setting::ShadingRate => self.topmost().and_then(|paint| paint.shaded_elsewhere(cure)),
+            Setting::PostProcess => Some(match self.smoothing {
+                Some(_) => "SMAA has guessed here.".to_owned(),
+                None => "A guess from the form of the edges happens to fit here.".to_owned(),
+            }),
             Setting::Rules | Setting::Pattern => None,
         }
     }
@@ -284,6 +288,7 @@ impl Cure {
             Setting::Pattern => {
                 format!("Pattern {value} (key A in the window), whose samples share neither columns nor rows")
             }
+            Setting::PostProcess => format!("Post-process {value}"),
         };
         format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
     }

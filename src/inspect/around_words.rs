@@ -31,7 +31,7 @@ impl Explanation {
         lines.extend(around.own_lines());
         lines.extend(around.neighbour_lines());
         let names = ["red", "green", "blue", "alpha"];
-        let channels = if self.color[3] == 255 && self.resolve.mean[3] < 255.5 {
+        let channels = if self.resolved()[3] == 255 && self.resolve.mean[3] < 255.5 {
             0..3
         } else {
             0..4
@@ -61,7 +61,7 @@ impl Explanation {
             let _ = write!(words, ", clamped to {}", number(clamped));
         }
         let mut last = clamped;
-        if channel < 3 && self.color[3] < 255 && opacity > 0.0 {
+        if channel < 3 && self.resolved()[3] < 255 && opacity > 0.0 {
             last = clamped * 255.0 / opacity;
             let _ = write!(words, ", / alpha = {}", number(last));
         }
@@ -69,7 +69,7 @@ impl Explanation {
             last = encoded(last);
             let _ = write!(words, ", encoded {}", number(last));
         }
-        let byte = self.color[channel];
+        let byte = self.resolved()[channel];
         if (last - f64::from(byte)).abs() > 1e-9 {
             let how = match rounding {
                 Rounding::Nearest => "rounded",

@@ -40,6 +40,13 @@ impl Explanation {
             })
         };
         compare("filter", filter(self), filter(b));
+        let smoothed = |of: &Self| {
+            of.smoothing
+                .as_ref()
+                .map_or("none", |smoothing| smoothing.by)
+                .to_owned()
+        };
+        compare("post-process", smoothed(self), smoothed(b));
         compare("averaged as", self.resolve.space.to_owned(), b.resolve.space.to_owned());
         let background = |of: &Self| {
             let shown = of.samples.iter().filter(|sample| sample.seen.is_none()).count();

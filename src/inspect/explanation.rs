@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use super::depth;
 use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
-use super::numbers::one_line;
+use super::numbers::{hex, one_line};
 use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
+use super::smoothing::smoothing;
 use super::triangle_views::{edges, interpolated, triangle_view};
 use crate::color::BlendMode;
 use crate::geometry::{FillRule, Polygon};
@@ -69,7 +70,9 @@ impl Explanation {
             .map(|((op, piece), seen)| question.paint(op, piece, seen, sources))
             .collect();
         mark_masks(&mut paints);
+        let smoothing = smoothing(&subject, size, pixel);
         let [a, r, g, b] = replay.pixel.to_be_bytes();
+        let color = smoothing.as_ref().map_or([r, g, b, a], |smoothing| smoothing.after);
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
         let mut samples = samples(&replay, &paints, rules);
         if unlisted > 0 {
@@ -88,9 +91,10 @@ impl Explanation {
             pixel,
             size,
             user: subject.view.to_scene(center).to_array(),
-            color: [r, g, b, a],
-            hex: hex([r, g, b, a]),
+            color,
+            hex: hex(color),
             resolve: resolve(&replay, subject.settings),
+            smoothing,
             samples,
             paints,
             pinholes,
@@ -359,14 +363,5 @@ fn mark_masks(paints: &mut [Paint]) {
             }
             _ => {}
         }
-    }
-}
-
-/// As style sheets write it.
-pub(super) fn hex([r, g, b, a]: [u8; 4]) -> String {
-    if a == 255 {
-        format!("#{r:02X}{g:02X}{b:02X}")
-    } else {
-        format!("#{r:02X}{g:02X}{b:02X}{a:02X}")
     }
 }

@@ -1,8 +1,7 @@
 //! What a sample interpolates in words: a place on a ramp, the texels that it reads.
 
-use super::explanation::hex;
 use super::model::{Interpolated, RampStop, Tap, Texel, TileTexel, Wrapped};
-use super::numbers::{cut, number, percent};
+use super::numbers::{cut, hex, number, percent};
 
 /// Points of a texture that are listed at most.
 const MOST_TAPS: usize = 4;

@@ -25,6 +25,7 @@ mod samples;
 mod seams;
 mod seen;
 mod servers;
+mod smoothing;
 mod text;
 mod triangle_views;
 mod words;
@@ -39,4 +40,5 @@ pub use model::{
     Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View, Wrapped,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
+pub use smoothing::{Blended, EdgePattern, PixelSide, Smoothing};
 pub use text::Detail;

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use super::smoothing::Smoothing;
 use crate::color::ResolveSpace;
 use crate::texture::Wrap;
 
@@ -30,6 +31,9 @@ pub struct Explanation {
     pub hex: String,
     /// How its samples became this colour.
     pub resolve: Resolve,
+    /// What was done to the finished pixel after that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smoothing: Option<Smoothing>,
     /// Its samples when everything is painted.
     pub samples: Vec<Sample>,
     /// Everything that painted any of them, first to last; of more than some hundred the last ones, and those that samples
@@ -151,6 +155,15 @@ pub enum Setting {
     Pattern,
     /// How often primitives are shaded in a pixel.
     ShadingRate,
+    /// What is done to finished pixels.
+    PostProcess,
+}
+
+impl Explanation {
+    /// The colour that its samples became, before anything was done to the finished pixel.
+    pub fn resolved(&self) -> [u8; 4] {
+        self.smoothing.as_ref().map_or(self.color, |smoothing| smoothing.before)
+    }
 }
 
 impl Resolve {

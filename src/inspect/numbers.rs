@@ -81,6 +81,15 @@ pub(super) fn one_line(text: &str) -> String {
     kept
 }
 
+/// A colour as style sheets write it.
+pub(super) fn hex([r, g, b, a]: [u8; 4]) -> String {
+    if a == 255 {
+        format!("#{r:02X}{g:02X}{b:02X}")
+    } else {
+        format!("#{r:02X}{g:02X}{b:02X}{a:02X}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

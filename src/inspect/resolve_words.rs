@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::model::{Explanation, Resolve, Rounding};
 use super::numbers::number;
+use super::smoothing::Smoothing;
 use crate::color::{ResolveSpace, encoded};
 
 /// Different colours that a sum is written out for at most.
@@ -12,10 +13,17 @@ const MOST_TERMS: usize = 4;
 impl Explanation {
     /// How the samples became the colour.
     pub fn resolve_lines(&self) -> Vec<String> {
+        let mut lines = match &self.resolve.around {
+            Some(around) => self.around_lines(around),
+            None => self.mean_lines(),
+        };
+        lines.extend(self.smoothing.iter().flat_map(Smoothing::lines));
+        lines
+    }
+
+    /// How its own samples became their mean.
+    fn mean_lines(&self) -> Vec<String> {
         let resolve = &self.resolve;
-        if let Some(around) = &resolve.around {
-            return self.around_lines(around);
-        }
         let mut lines = Vec::new();
         if resolve.samples == 1 {
             lines.push("One sample is the pixel.".to_owned());
@@ -35,7 +43,7 @@ impl Explanation {
         }
         let names = ["red", "green", "blue", "alpha"];
         // An opaque pixel's alpha has no story.
-        let channels = if self.color[3] == 255 { 0..3 } else { 0..4 };
+        let channels = if self.resolved()[3] == 255 { 0..3 } else { 0..4 };
         for channel in channels {
             lines.push(format!("{:5}  {}", names[channel], self.channel(channel)));
         }
@@ -55,7 +63,7 @@ impl Explanation {
         let (mean, alpha) = (mean[channel], self.resolve.mean[3]);
         let mut text = format!("light {} / {samples} = {}", number(sums[channel]), number(mean));
         let straight = if alpha > 0.0 { mean * 255.0 / alpha } else { 0.0 };
-        if self.color[3] < 255 {
+        if self.resolved()[3] < 255 {
             let _ = write!(text, ", / alpha = {}", number(straight));
         }
         let rounding = match self.resolve.rounding {
@@ -67,7 +75,7 @@ impl Explanation {
             text,
             ", encoded {}, {rounding} to {}",
             number(encoded(straight)),
-            self.color[channel]
+            self.resolved()[channel]
         );
         text
     }
@@ -87,13 +95,13 @@ impl Explanation {
         let terms = self.terms(channel).unwrap_or_else(|| number(sums[channel]));
         let mean = mean[channel];
         let alpha = self.resolve.mean[3];
-        let (shown, straight) = if channel < 3 && self.color[3] < 255 && alpha > 0.0 {
+        let (shown, straight) = if channel < 3 && self.resolved()[3] < 255 && alpha > 0.0 {
             let straight = mean * 255.0 / alpha;
             (format!("{} / alpha = {}", number(mean), number(straight)), straight)
         } else {
             (number(mean), mean)
         };
-        let byte = self.color[channel];
+        let byte = self.resolved()[channel];
         let rounded = match rounding {
             _ if (straight - f64::from(byte)).abs() < 1e-9 => String::new(),
             Rounding::Nearest => format!(", rounded to {byte}"),

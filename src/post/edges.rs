@@ -24,7 +24,7 @@ const WHITE: i32 = 10_000 * 255 * 255;
 const LEAST: i32 = WHITE / 10;
 
 /// Pixels that are passed over at once where none has an edge.
-pub(super) const CHUNK: usize = 16;
+pub(super) const CHUNK: usize = 32;
 /// Rows that a thread takes at once.
 pub(super) const BAND: usize = 32;
 
@@ -47,61 +47,56 @@ pub(super) fn contrast(a: u32, b: u32) -> f64 {
     f64::from(distance(luma(a), luma(b))) / f64::from(WHITE)
 }
 
-/// What [`luma`] tells of a row of pixels.
-#[derive(Clone, Debug, Default)]
-struct LumaRow([Vec<i32>; 2]);
+/// The rows of pixels around one: two above it, itself, and the one below; none beyond the frame.
+struct Rows<'a> {
+    above: [Option<&'a [u32]>; 2],
+    own: &'a [u32],
+    below: Option<&'a [u32]>,
+}
 
-impl LumaRow {
-    fn fill(&mut self, pixels: &[u32]) {
-        for (part, of) in self.0.iter_mut().zip([0, 1]) {
-            part.clear();
-            part.extend(pixels.iter().map(|pixel| luma(*pixel)[of]));
-        }
-    }
-
-    #[inline]
-    fn at(&self, x: usize) -> [i32; 2] {
-        [self.0[0][x], self.0[1][x]]
-    }
-
-    /// Whether any pixel differs enough from the one on its left or above: marks those sides.
-    fn mark(&self, above: Option<&Self>, flags: &mut [u8]) {
-        let [luma, opacity] = &self.0;
-        let far = |a: i32, b: i32, c: i32, d: i32| (a - b).abs().max((c - d).abs()) >= LEAST;
-        let left = luma.iter().zip(&luma[1..]).zip(opacity.iter().zip(&opacity[1..]));
-        for (flag, ((a, b), (c, d))) in flags[1..].iter_mut().zip(left) {
-            *flag = u8::from(far(*a, *b, *c, *d)) * LEFT;
-        }
-        if let Some(Self([above, opacity_above])) = above {
-            let pairs = luma.iter().zip(above).zip(opacity.iter().zip(opacity_above));
-            for (flag, ((a, b), (c, d))) in flags.iter_mut().zip(pairs) {
-                *flag |= u8::from(far(*a, *b, *c, *d)) * TOP;
+impl Rows<'_> {
+    /// Marks the edges of the row.
+    fn mark(&self, flags: &mut [u8]) {
+        for (start, flags) in (0..).step_by(CHUNK).zip(flags.chunks_mut(CHUNK)) {
+            let end = start + flags.len();
+            // Most pixels are those beside them.
+            let is_flat = self.own[start.max(1)..end] == self.own[start.max(1) - 1..end - 1];
+            let goes_on = |above: &[u32]| above[start..end] == self.own[start..end];
+            if is_flat && self.above[1].is_none_or(goes_on) {
+                continue;
+            }
+            let mut left = self.own[start.saturating_sub(1)];
+            for (x, flags) in (start..end).zip(flags) {
+                let own = self.own[x];
+                let above = self.above[1].map_or(own, |above| above[x]);
+                if own != left || own != above {
+                    let here = luma(own);
+                    let is_edge = |other: u32, side: u8| u8::from(distance(here, luma(other)) >= LEAST) * side;
+                    let found = is_edge(left, LEFT) | is_edge(above, TOP);
+                    *flags = if found == 0 { 0 } else { self.adapted(x, found) };
+                }
+                left = own;
             }
         }
     }
-}
 
-/// The rows around one: two above it, itself, and the one below; none beyond the frame.
-struct Rows<'a>([Option<&'a LumaRow>; 4]);
-
-impl Rows<'_> {
-    /// Drops those of a pixel's marked edges beside which luma differs much more.
-    fn adapted(&self, x: usize, marked: u8) -> u8 {
-        let [above_above, above, Some(row), below] = self.0 else {
-            return 0;
-        };
-        let from = |pixel: [i32; 2], other: Option<[i32; 2]>| other.map_or(0, |other| distance(pixel, other));
-        let in_row = |x: Option<usize>| x.filter(|x| *x < row.0[0].len()).map(|x| row.at(x));
-        let in_column = |row: Option<&LumaRow>| row.map(|row| row.at(x));
-        let own = row.at(x);
-        let (left, top) = (in_row(x.checked_sub(1)), in_column(above));
-        let (to_left, to_top) = (from(own, left), from(own, top));
-        let beyond_left = left.map_or(0, |left| from(left, in_row(x.checked_sub(2))));
-        let beyond_top = top.map_or(0, |top| from(top, in_column(above_above)));
-        let right_or_bottom = from(own, in_row(Some(x + 1))).max(from(own, in_column(below)));
-        let others = right_or_bottom.max(beyond_left).max(beyond_top);
-        let most = to_left.max(to_top).max(others);
-        let kept = |side: u8, distance: i32| if FACTOR * distance >= most { marked & side } else { 0 };
+    /// Drops those of a pixel's edges beside which luma differs much more.
+    fn adapted(&self, x: usize, found: u8) -> u8 {
+        let own = self.own[x];
+        let in_row = |x: Option<usize>| x.and_then(|x| self.own.get(x)).copied();
+        let in_column = |row: Option<&[u32]>| row.map(|row| row[x]);
+        // Beyond the frame nothing differs.
+        let between = |a: Option<u32>, b: Option<u32>| a.zip(b).map_or(0, |(a, b)| distance(luma(a), luma(b)));
+        let (left, top) = (in_row(x.checked_sub(1)), in_column(self.above[1]));
+        let [to_left, to_top] = [left, top].map(|other| between(Some(own), other));
+        let others = [
+            between(Some(own), in_row(Some(x + 1))),
+            between(Some(own), in_column(self.below)),
+            between(left, in_row(x.checked_sub(2))),
+            between(top, in_column(self.above[0])),
+        ];
+        let most = others.into_iter().fold(to_left.max(to_top), i32::max);
+        let kept = |side: u8, distance: i32| if FACTOR * distance >= most { found & side } else { 0 };
         kept(LEFT, to_left) | kept(TOP, to_top)
     }
 }
@@ -122,24 +117,14 @@ impl Edges {
         let mut flags = vec![0; stride * (height + 2 * PADDING)];
         let own = &mut flags[PADDING * stride..][..height * stride];
         own.par_chunks_mut(BAND * stride).enumerate().for_each(|(band, flags)| {
-            let mut window: [LumaRow; 4] = Default::default();
-            let row = |y: usize| &pixels[y * width..][..width];
-            let first = band * BAND;
-            for (before, luma) in window.iter_mut().skip(1).enumerate() {
-                // Those before the first row, it itself; the one after it comes below.
-                if let Some(y) = (first + before).checked_sub(2).filter(|y| *y < height) {
-                    luma.fill(row(y));
-                }
-            }
-            for (y, flags) in (first..).zip(flags.chunks_exact_mut(stride)) {
-                window.rotate_left(1);
-                if y + 1 < height {
-                    window[3].fill(row(y + 1));
-                }
-                let rows = window.each_ref();
-                let seen = |k: usize| (y + k).checked_sub(2).filter(|y| *y < height).map(|_| rows[k]);
-                let rows = Rows([0, 1, 2, 3].map(seen));
-                mark(&rows, &mut flags[PADDING..][..width]);
+            let row = |y: Option<usize>| y.and_then(|y| pixels.chunks_exact(width).nth(y));
+            for (y, flags) in (band * BAND..).zip(flags.chunks_exact_mut(stride)) {
+                let rows = Rows {
+                    above: [row(y.checked_sub(2)), row(y.checked_sub(1))],
+                    own: &pixels[y * width..][..width],
+                    below: row(Some(y + 1)),
+                };
+                rows.mark(&mut flags[PADDING..][..width]);
             }
         });
         Self { size, stride, flags }
@@ -159,22 +144,6 @@ impl Edges {
         match (place(x), place(y)) {
             (Ok(x), Ok(y)) if x < self.stride => self.flags.get(y * self.stride + x).copied().unwrap_or(0),
             _ => 0,
-        }
-    }
-}
-
-/// The edges of one row.
-fn mark(rows: &Rows<'_>, flags: &mut [u8]) {
-    let Rows([_, above, Some(row), _]) = rows else {
-        return;
-    };
-    row.mark(*above, flags);
-    // Most pixels have no edges.
-    for (start, flags) in (0..).step_by(CHUNK).zip(flags.chunks_mut(CHUNK)) {
-        if flags.iter().fold(0, |any, flags| any | flags) != 0 {
-            for (x, flags) in (start..).zip(flags).filter(|(_, flags)| **flags != 0) {
-                *flags = rows.adapted(x, *flags);
-            }
         }
     }
 }

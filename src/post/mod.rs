@@ -23,11 +23,13 @@ mod diagonals;
 mod edges;
 mod lines;
 mod smaa;
+mod trace;
 mod weights;
 
 pub use blend::Values;
 pub use edges::{FACTOR, THRESHOLD};
 pub use smaa::{REACH, smaa};
+pub use trace::{Form, Neighbour, Pattern, SideTrace, Trace, trace};
 
 /// What is done to a finished picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -97,6 +97,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/25_few_texels.svg",
     "study/26_hard_texels.svg",
     "study/27_beyond_the_border.svg",
+    "study/28_guessed_edges.svg",
+    "study/29_what_guesses_miss.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

@@ -38,10 +38,10 @@ fn record(path: &Path) -> Record {
 }
 
 #[rustfmt::skip]
-const RENDER: [&str; 18] = [
+const RENDER: [&str; 20] = [
     "render", "a.svg", "-o", "out/a.png", "--size", "90x70", "--view=20,15,2.5,30", "--sample-rate", "9",
-    "--shading-rate", "centroid", "--pixel-sampling", "mitchell", "--texture-wrap", "repeat", "--background",
-    "#ff8000", "--threads=1",
+    "--shading-rate", "centroid", "--pixel-sampling", "mitchell", "--texture-wrap", "repeat", "--post-process",
+    "smaa", "--background", "#ff8000", "--threads=1",
 ];
 
 #[test]
@@ -51,7 +51,7 @@ fn record_tells_scene_textures_and_settings() {
     let told = record(&work.path().join("out/a.png"));
     assert_eq!(told.version, 1, "the shape");
     let line = "rasterscope render a.svg -o out/a.png --size 90x70 --view=20,15,2.5,30 --sample-rate 9 \
-                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --background '#ff8000'";
+                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --post-process smaa --background '#ff8000'";
     assert_eq!(told.command_line, line, "threads make no difference");
     let scene = told.scene.unwrap();
     let digest = |name: &str| FileDigest::of(&fs::read(work.path().join(name)).unwrap()).to_string();
@@ -76,6 +76,7 @@ fn record_tells_scene_textures_and_settings() {
         [
             "background #ff8000",
             "pixel-sampling mitchell",
+            "post-process smaa",
             "sample-rate 9",
             "shading-rate centroid",
             "texture-wrap repeat"
@@ -258,7 +259,7 @@ fn render_takes_a_picture_for_its_scene_and_settings() {
     );
     let told = record(&work.path().join("b.png"));
     let line = "rasterscope render out/../a.svg -o b.png --size 90x70 --view=20,15,2.5,30 --sample-rate 4 \
-                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --background '#ff8000'";
+                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --post-process smaa --background '#ff8000'";
     assert_eq!(told.command_line, line, "what is written counts more");
 }
 

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{View as SceneView, ViewTransform};
 use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
+use rasterscope::post::PostProcess;
 use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
@@ -79,6 +80,7 @@ fn settings() -> Vec<RenderSettings> {
             own.shading = ShadingRate::Centroid;
             own.pattern = SamplePattern::Rotated;
         }),
+        with(&|own| own.post_process = PostProcess::Smaa),
         with(&|own| {
             own.sample_rate = rate(256);
             own.level_sampling = LevelSampling::Nearest;
@@ -95,6 +97,11 @@ fn read(name: &str, document: &str) -> Scene {
 
 /// A pixel drawn by the code that explains frames.
 fn color(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, pixel: [u32; 2]) -> [u8; 4] {
+    if settings.post_process != PostProcess::None {
+        let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+        draw(scene, view, settings, &mut frame);
+        return frame.rgba(pixel[0], pixel[1]).unwrap();
+    }
     let subject = Subject { scene, view, settings };
     let [a, r, g, b] = replay(&subject, SIZE, pixel).unwrap().pixel.to_be_bytes();
     [r, g, b, a]
@@ -138,6 +145,12 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
             settings.shading = ShadingRate::ALL
                 .into_iter()
                 .find(|shading| shading.name() == value)
+                .unwrap();
+        }
+        Setting::PostProcess => {
+            settings.post_process = PostProcess::ALL
+                .into_iter()
+                .find(|process| process.name() == value)
                 .unwrap();
         }
         Setting::Pattern => {

@@ -8,6 +8,7 @@
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View as SceneView;
 use rasterscope::inspect::{Around, Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
+use rasterscope::post::PostProcess;
 use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
@@ -82,6 +83,14 @@ fn settings() -> [RenderSettings; 10] {
             ..plain
         },
     ]
+}
+
+/// Those in which the finished pixels are smoothed.
+fn smoothed() -> [RenderSettings; 1] {
+    [RenderSettings {
+        post_process: PostProcess::Smaa,
+        ..RenderSettings::default()
+    }]
 }
 
 /// Those in which primitives are shaded once in a pixel.
@@ -165,7 +174,12 @@ fn every_pixel(scene: &Scene, settings: &RenderSettings, size: [u32; 2], check: 
 fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
     for scene in SCENES {
         let read = read(scene.name, scene.document);
-        for settings in settings().into_iter().chain(shaded_once()).chain(wide_settings()) {
+        for settings in settings()
+            .into_iter()
+            .chain(shaded_once())
+            .chain(wide_settings())
+            .chain(smoothed())
+        {
             every_pixel(&read, &settings, [17, 13], |found, pixel| {
                 let [a, r, g, b] = pixel.to_be_bytes();
                 let at = (scene.name, &settings, found.pixel);
@@ -209,7 +223,7 @@ fn check_resolve(found: &Explanation, rules: Rules) {
     if !resolve.summed_exactly {
         assert_eq!(
             found.mean_of_first(resolve.samples),
-            found.color,
+            found.resolved(),
             "sample by sample: {found:?}"
         );
     }
@@ -217,12 +231,12 @@ fn check_resolve(found: &Explanation, rules: Rules) {
         let lines = found.resolve_lines();
         let red = lines.iter().find(|line| line.starts_with("red")).unwrap();
         assert!(
-            red.contains(" light ") && red.ends_with(&format!(" to {}", found.color[0])),
+            red.contains(" light ") && red.ends_with(&format!(" to {}", found.resolved()[0])),
             "{red}"
         );
     }
     let alpha = resolve.mean[3];
-    for (i, byte) in found.color.iter().enumerate() {
+    for (i, byte) in found.resolved().iter().enumerate() {
         let exact = match i {
             3 => alpha,
             _ if alpha > 0.0 && linear => stored(resolve.mean[i] / alpha) * 255.0,
@@ -278,7 +292,7 @@ fn check_around(found: &Explanation, around: &Around, rules: Rules) {
         "its own samples: {around:?}"
     );
     let alpha = sums[3].clamp(0.0, 255.0);
-    for (i, byte) in found.color.iter().enumerate() {
+    for (i, byte) in found.resolved().iter().enumerate() {
         let clamped = sums[i].clamp(0.0, if i < 3 { alpha } else { 255.0 });
         let exact = match i {
             3 => alpha,
@@ -301,7 +315,7 @@ fn check_around(found: &Explanation, around: &Around, rules: Rules) {
     let lines = found.resolve_lines();
     assert!(lines[0].contains(around.filter), "the filter is named: {lines:?}");
     let red = lines.iter().find(|line| line.starts_with("red")).expect("red is told");
-    let byte = format!(" {}", found.color[0]);
+    let byte = format!(" {}", found.resolved()[0]);
     assert!(
         red.contains(" neighbours ") && red.ends_with(&byte),
         "{red} and not {byte}"
@@ -338,9 +352,9 @@ fn check_accumulation(found: &Explanation) {
         return;
     }
     let all = found.mean_of_first(found.samples.len());
-    for (all, color) in all.iter().zip(found.color) {
+    for (all, color) in all.iter().zip(found.resolved()) {
         // What is off by a quarter of a level counts more where little is opaque.
-        let rounding = match found.color[3] {
+        let rounding = match found.resolved()[3] {
             _ if !found.resolve.summed_exactly => 0,
             alpha => 1 + 80 / alpha.max(1),
         };

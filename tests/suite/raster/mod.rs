@@ -14,5 +14,6 @@ mod render;
 mod resolve_filters;
 mod robustness;
 mod shading_rate;
+mod smaa;
 mod texture_kernels;
 mod visualisation;

@@ -24,12 +24,14 @@ fn root() -> &'static Path {
 }
 
 /// Study scenes that the generator does not make.
-const BY_HAND: [&str; 5] = [
+const BY_HAND: [&str; 7] = [
     "study/18_text_at_8_px.svg",
     "study/19_banding.svg",
     "study/20_conflation.svg",
     "study/21_fine_spokes.svg",
     "study/22_what_filters_cost.svg",
+    "study/28_guessed_edges.svg",
+    "study/29_what_guesses_miss.svg",
 ];
 
 /// The files below a folder, relative to it, with `/`.

@@ -13,3 +13,4 @@ pub(crate) mod refusal;
 pub(crate) mod resolve_filters;
 pub(crate) mod scenes;
 pub(crate) mod session;
+pub(crate) mod smaa;

@@ -70,7 +70,7 @@ impl Diagonal {
     }
 
     fn rising(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: u8| edges.at([x, y]) & side != 0;
+        let has = |x: i32, y: i32, side: u8| edges.at_place(edges.place([x, y])) & side != 0;
         let stair = |[x, y]: [i32; 2]| [has(x, y, LEFT), has(x, y, TOP)];
         let left = if has(x, y, LEFT) {
             follow([x, y], [-1, 1], stair)
@@ -94,7 +94,7 @@ impl Diagonal {
     }
 
     fn falling(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: u8| edges.at([x, y]) & side != 0;
+        let has = |x: i32, y: i32, side: u8| edges.at_place(edges.place([x, y])) & side != 0;
         let stair = |[x, y]: [i32; 2]| [has(x + 1, y, LEFT), has(x, y, TOP)];
         let left = follow([x, y], [-1, -1], stair);
         let right = if has(x + 1, y, LEFT) {

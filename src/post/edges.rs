@@ -66,13 +66,15 @@ impl Rows<'_> {
                 continue;
             }
             let mut left = self.own[start.saturating_sub(1)];
+            let mut luma_left = luma(left);
             for (x, flags) in (start..end).zip(flags) {
                 let own = self.own[x];
                 let above = self.above[1].map_or(own, |above| above[x]);
                 if own != left || own != above {
                     let here = luma(own);
-                    let is_edge = |other: u32, side: u8| u8::from(distance(here, luma(other)) >= LEAST) * side;
-                    let found = is_edge(left, LEFT) | is_edge(above, TOP);
+                    let is_edge = |other: [i32; 2], side: u8| u8::from(distance(here, other) >= LEAST) * side;
+                    let found = is_edge(luma_left, LEFT) | is_edge(luma(above), TOP);
+                    luma_left = here;
                     *flags = if found == 0 { 0 } else { self.adapted(x, found) };
                 }
                 left = own;
@@ -135,6 +137,24 @@ impl Edges {
     pub(super) fn row(&self, y: usize) -> &[u8] {
         let start = (y + PADDING) * self.stride + PADDING;
         &self.flags[start..=start + self.size[0]]
+    }
+
+    /// Where the flags of a pixel are that lies in the frame or at most two pixels beside it.
+    #[inline]
+    pub(super) fn place(&self, [x, y]: [i32; 2]) -> usize {
+        let [x, y] = [x, y].map(|at| usize::try_from(at + PADDING_PIXELS).unwrap_or(0));
+        y * self.stride + x
+    }
+
+    /// How far apart the flags of pixels in the next column and in the next row are.
+    pub(super) fn steps(&self) -> [usize; 2] {
+        [1, self.stride]
+    }
+
+    /// The edges of the pixel at such a place.
+    #[inline]
+    pub(super) fn at_place(&self, place: usize) -> u8 {
+        self.flags.get(place).copied().unwrap_or(0)
     }
 
     /// The edges of a pixel; none beyond the frame.

@@ -72,28 +72,34 @@ impl Line {
     /// The line that an edge of the pixel at `place`, along the axis and across it, is part of.
     pub(super) fn through(edges: &Edges, axis: Axis, [along, across]: [i32; 2]) -> Self {
         let [line, crossing] = axis.sides();
-        let flags = |along: i32, across: i32| edges.at(axis.pixel([along, across]));
-        let is_crossed = |along: i32| (flags(along, across) | flags(along, across - 1)) & crossing != 0;
-        let is_line = |along: i32| flags(along, across) & line != 0;
-        let mut before = 0;
-        while before < LONGEST && !is_crossed(along - i32::from(before)) && is_line(along - i32::from(before) - 1) {
-            before += 1;
+        let place = edges.place(axis.pixel([along, across]));
+        let [column, row] = edges.steps();
+        let (next, beside) = match axis {
+            Axis::Row => (column, row),
+            Axis::Column => (row, column),
+        };
+        let flags = |place: usize| edges.at_place(place);
+        let is_crossed = |place: usize| (flags(place) | flags(place - beside)) & crossing != 0;
+        let is_line = |place: usize| flags(place) & line != 0;
+        let (mut before, mut begin) = (0, place);
+        while before < LONGEST && !is_crossed(begin) && is_line(begin - next) {
+            (before, begin) = (before + 1, begin - next);
         }
-        let mut after = 0;
-        while after < LONGEST && !is_crossed(along + i32::from(after) + 1) && is_line(along + i32::from(after) + 1) {
-            after += 1;
+        let (mut after, mut end) = (0, place + next);
+        while after < LONGEST && !is_crossed(end) && is_line(end) {
+            (after, end) = (after + 1, end + next);
         }
-        let end = |along: i32| {
-            let crosses = |beside: i32| flags(along, across + beside) & crossing != 0;
+        let end_at = |place: usize| {
+            let crosses = |place: usize| flags(place) & crossing != 0;
             End {
-                near: crosses(0),
-                far: crosses(-1),
-                goes_on: [crosses(1), crosses(-2)],
+                near: crosses(place),
+                far: crosses(place - beside),
+                goes_on: [crosses(place + beside), crosses(place - 2 * beside)],
             }
         };
         Self {
             lengths: [before, after],
-            ends: [end(along - i32::from(before)), end(along + i32::from(after) + 1)],
+            ends: [end_at(begin), end_at(end)],
         }
     }
 

@@ -4,6 +4,7 @@ mod blend;
 mod blend_all;
 mod colormap;
 mod light;
+mod mix;
 mod ramp;
 mod resolve;
 mod resolver;

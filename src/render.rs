@@ -19,7 +19,7 @@ use crate::geometry::ViewTransform;
 use crate::post::{self, PostProcess};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
-    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
+    PaintSources, PixelCoverage, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
     ShadingRate, SizedFilter,
 };
 use crate::rules::Rules;
@@ -48,6 +48,9 @@ pub struct RenderSettings {
     pub seed: Seed,
     /// How often primitives are shaded in a pixel.
     pub shading: ShadingRate,
+    /// What tells how much of a pixel a primitive covers: samples, or its exact area, with which rate, pattern and shading rate are
+    /// without effect. Pictures of something else than colours always have samples.
+    pub coverage: PixelCoverage,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
     /// What textures show beyond their borders. The tiles of patterns go on for ever, whatever this says.
@@ -88,6 +91,7 @@ impl Default for RenderSettings {
             pattern: SamplePattern::default(),
             seed: Seed::default(),
             shading: ShadingRate::default(),
+            coverage: PixelCoverage::default(),
             pixel_sampling: PixelSampling::default(),
             texture_wrap: Wrap::default(),
             level_sampling: LevelSampling::default(),
@@ -118,6 +122,7 @@ impl RenderSettings {
             sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(self.sample_rate),
             pattern: SamplePattern::Grid,
             shading: ShadingRate::Sample,
+            coverage: PixelCoverage::Sampled,
             level_sampling: LevelSampling::Zero,
             pyramid: ResolveSpace::default(),
             pyramid_filter: PyramidFilter::default(),
@@ -138,6 +143,29 @@ impl RenderSettings {
         Self {
             resolve: space.unwrap_or(self.resolve),
             ..self.truth()
+        }
+    }
+
+    /// Whether exact areas of pixels are covered, and not samples.
+    pub fn covers_areas(&self) -> bool {
+        self.coverage.is_exact() && self.visualisation == Visualisation::Color
+    }
+
+    /// The settings with those values of the sampling that have an effect: one sample in the middle of each pixel, where areas
+    /// are covered.
+    #[must_use]
+    pub fn in_effect(self) -> Self {
+        if !self.covers_areas() {
+            return Self {
+                coverage: PixelCoverage::Sampled,
+                ..self
+            };
+        }
+        Self {
+            sample_rate: SampleRate::ONE,
+            pattern: SamplePattern::Grid,
+            shading: ShadingRate::Sample,
+            ..self
         }
     }
 
@@ -368,11 +396,13 @@ fn outline(scene: &Scene, context: &ListContext, screen: &Screen<'_>, settings: 
 
 /// What the settings mean to the rasterizer.
 fn raster_settings(settings: &RenderSettings) -> RasterSettings {
+    let settings = settings.in_effect();
     RasterSettings {
         rate: settings.sample_rate,
         pattern: settings.pattern,
         seed: settings.seed,
         shading: settings.shading,
+        coverage: settings.coverage,
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             wrap: settings.texture_wrap,

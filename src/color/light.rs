@@ -125,6 +125,16 @@ impl Light {
         of_color(&LIGHT, color)
     }
 
+    /// Straight red, green and blue of what some colours with these weights show together, in parts of [`ONE_LIGHT`]; weights add
+    /// up to `2^16`.
+    pub(super) fn mean(colors: [Premultiplied16; 2], weights: [u32; 2]) -> [u32; 3] {
+        let [a, b] = colors.map(|color| Self::new(color).0);
+        // At most 31 bits of light, 16 of alpha and 16 of weight.
+        let sum = |k: usize| a[k] * u64::from(weights[0]) + b[k] * u64::from(weights[1]);
+        let alphas = sum(3).max(1);
+        [0, 1, 2].map(|k| u32::try_from((sum(k) + alphas / 2) / alphas).unwrap_or(u32::MAX))
+    }
+
     /// Red, green and blue weighted by alpha, and alpha, of one sample: `0.0..=1.0`.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
@@ -251,6 +261,19 @@ impl LightResolver {
 fn pieces_of(alphas: u64) -> f64 {
     const LESS: f64 = 1.0 - 1.0 / (1_u64 << 40) as f64;
     LESS / (alphas as f64 * f64::from(1_u32 << PIECE_BITS))
+}
+
+/// The stored channel whose light is nearest: the way back from [`ONE_LIGHT`] parts.
+pub(super) fn stored_light(light: u32) -> u16 {
+    let known = &LIGHT[..=usize::from(Premultiplied16::ONE)];
+    let above = known.partition_point(|known| *known < light).min(known.len() - 1);
+    let below = above.saturating_sub(1);
+    let nearest = if known[above].abs_diff(light) <= known[below].abs_diff(light) {
+        above
+    } else {
+        below
+    };
+    u16::try_from(nearest).unwrap_or(Premultiplied16::ONE)
 }
 
 #[inline]

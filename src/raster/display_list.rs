@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::bins::{Bins, Plan};
+use crate::raster::coverage::area::shape_area::ShapeArea;
 use crate::raster::coverage::free_positions::FreePositions;
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::list::chunk::{Chunk, measure_layers};
@@ -116,6 +117,10 @@ impl<'a> DisplayList<'a> {
     /// What finds coverage, in these columns of pixels.
     pub(in crate::raster) fn shape_coverage(&self, columns: Span) -> ShapeCoverage {
         let rows = self.grid_rows();
+        if self.context.coverage.is_exact() {
+            let columns = self.context.size[0].cast_signed();
+            return rows.with_area(ShapeArea::new(self.context.grid, columns, self.outlines()));
+        }
         if self.context.is_grid() {
             rows
         } else {

@@ -133,6 +133,7 @@ mod tests {
                 pattern,
                 seed: crate::raster::Seed::default(),
                 shading: crate::raster::ShadingRate::default(),
+                coverage: crate::raster::PixelCoverage::default(),
                 sampling: SamplingSettings { rules, ..sampling },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,

@@ -3,6 +3,7 @@
 use crate::color::{ResolveSpace, Rgba};
 use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::pattern::{SamplePattern, Seed};
+use crate::raster::sampling::pixel_coverage::PixelCoverage;
 use crate::raster::sampling::rate::SampleRate;
 use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::texture::SamplingSettings;
@@ -18,6 +19,9 @@ pub struct RasterSettings {
     pub seed: Seed,
     /// How often primitives are shaded in a pixel.
     pub shading: ShadingRate,
+    /// What tells how much of a pixel a primitive covers. Exact areas leave one value per pixel: rate, pattern and shading rate
+    /// are without effect then.
+    pub coverage: PixelCoverage,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
     /// What samples weigh in a pixel, its own and its neighbours'.
@@ -28,4 +32,15 @@ pub struct RasterSettings {
     pub background: Rgba,
     /// Where it is given, the red of each resolved pixel is a number and becomes the colour of that index.
     pub palette: Option<&'static [u32; 256]>,
+}
+
+impl RasterSettings {
+    /// How many samples a pixel has, a rate that the pattern takes, and where they lie: one in the middle, where areas count.
+    pub(crate) fn sampled(&self) -> (SampleRate, SamplePattern) {
+        if self.coverage.is_exact() {
+            return (SampleRate::ONE, SamplePattern::Grid);
+        }
+        let rate = self.pattern.nearest(self.rate);
+        (rate, self.pattern.simplest(rate))
+    }
 }

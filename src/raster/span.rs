@@ -121,6 +121,20 @@ impl SpanRect {
         }
     }
 
+    /// The columns and rows of samples that a triangle touches anything of, where a sample stands for all that lies around it:
+    /// with one sample per pixel, the pixels.
+    #[inline]
+    pub(crate) fn of_touched([a, b, c]: [GridPoint; 3], grid: SubpixelGrid) -> Self {
+        let span = |a: i32, b: i32, c: i32| Span {
+            start: a.min(b).min(c) >> grid.bits(),
+            end: (a.max(b).max(c) + (1 << grid.bits()) - 1) >> grid.bits(),
+        };
+        Self {
+            x: span(a.x, b.x, c.x),
+            y: span(a.y, b.y, c.y),
+        }
+    }
+
     /// What lies in both.
     #[inline]
     pub(crate) fn intersection(self, other: Self) -> Self {

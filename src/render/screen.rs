@@ -4,7 +4,14 @@ use glam::DVec2;
 
 use super::RenderSettings;
 use crate::geometry::{Polygon, ViewTransform};
+use crate::raster::SampleRate;
 use crate::rules::Rules;
+
+/// For how many samples along a side of a pixel curves are fine enough: for the most there can be, where areas are covered.
+fn samples_along_side(settings: &RenderSettings) -> f64 {
+    let most = SampleRate::new(SampleRate::MAX).filter(|_| settings.covers_areas());
+    most.unwrap_or(settings.sample_rate).side().into()
+}
 
 /// User space to screen space, by whose rules.
 pub(super) struct Screen<'a> {
@@ -23,7 +30,7 @@ impl<'a> Screen<'a> {
         Self {
             view,
             rules: settings.rules,
-            scale: pixels_per_unit(view) * f64::from(settings.sample_rate.side()),
+            scale: pixels_per_unit(view) * samples_along_side(settings),
             size,
             margin: settings.margin(),
         }

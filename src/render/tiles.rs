@@ -8,7 +8,7 @@ use glam::{DAffine2, DVec2};
 use super::{RenderSettings, Visualisation, draw};
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, PlacedPattern, ResolveFilter, SampleRate};
+use crate::raster::{Framebuffer, PixelCoverage, PlacedPattern, ResolveFilter, SampleRate};
 use crate::scene::Pattern;
 use crate::texture::Tile;
 
@@ -21,6 +21,11 @@ const LEAST_SIDE: f64 = 8.0;
 
 /// A pattern as it lies in a view.
 pub(super) fn placed(pattern: &Pattern, view: &ViewTransform, settings: &RenderSettings) -> PlacedPattern {
+    // Areas are those of what a tile fills; the tile itself is read in the middle of a pixel.
+    let settings = &RenderSettings {
+        coverage: PixelCoverage::Sampled,
+        ..settings.in_effect()
+    };
     let to_pixels = view.scene_to_pixels * pattern.to_user * DAffine2::from_scale(pattern.tile.canvas);
     PlacedPattern {
         tile: pattern_tile(pattern, to_pixels, settings),

@@ -19,23 +19,23 @@ use crate::raster::tile_layout::TileLayout;
 /// Walks over the commands of a chunk.
 pub(crate) struct Binner<'a> {
     chunk: &'a Chunk,
-    context: &'a ListContext,
+    pub(super) context: &'a ListContext,
     /// Tile rows to look at.
-    rows: Span,
-    samples: Sides,
+    pub(super) rows: Span,
+    pub(super) samples: Sides,
     pixels: Sides,
     /// The samples that are painted.
-    frame: SpanRect,
+    pub(super) frame: SpanRect,
 }
 
 /// The sides of a tile, in samples or in pixels, and how to divide by them.
 #[derive(Clone, Copy)]
-struct Sides {
-    width: u32,
-    height: u32,
+pub(super) struct Sides {
+    pub(super) width: u32,
+    pub(super) height: u32,
     inverse: [u64; 2],
     /// By how much what is painted for a tile reaches into the next.
-    overlap: i32,
+    pub(super) overlap: i32,
     /// The last column and row of tiles.
     last: [i32; 2],
 }
@@ -61,13 +61,13 @@ impl Sides {
 
     /// The first and the last tile column for which any of some columns is painted.
     #[inline]
-    fn columns(&self, span: Span) -> (i32, i32) {
+    pub(super) fn columns(&self, span: Span) -> (i32, i32) {
         self.tiles(span, 0)
     }
 
     /// The first and the last tile row for which any of some rows is painted.
     #[inline]
-    fn rows(&self, span: Span) -> (i32, i32) {
+    pub(super) fn rows(&self, span: Span) -> (i32, i32) {
         self.tiles(span, 1)
     }
 
@@ -82,7 +82,7 @@ impl Sides {
 
     /// What is painted for a tile column or row, which are `side` long.
     #[inline]
-    fn painted(&self, tile: i32, side: u32) -> Span {
+    pub(super) fn painted(&self, tile: i32, side: u32) -> Span {
         let side = side.cast_signed();
         Span {
             start: tile * side,
@@ -201,6 +201,10 @@ impl<'a> Binner<'a> {
                         continue;
                     }
                     let entry = TileCommand::triangle(i, index, paint.constant, opaque);
+                    if self.context.coverage.is_exact() {
+                        self.touched_triangle(triangle.corners, entry, depth == 0, &mut visit);
+                        continue;
+                    }
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::Outline(index) => {
@@ -226,7 +230,7 @@ impl<'a> Binner<'a> {
 
     /// The number of a tile.
     #[inline]
-    fn tile(&self, column: i32, row: i32) -> usize {
+    pub(super) fn tile(&self, column: i32, row: i32) -> usize {
         to_index(row - self.rows.start) * self.context.tiles.columns as usize + to_index(column)
     }
 
@@ -288,13 +292,18 @@ impl<'a> Binner<'a> {
                 width: units(width),
                 overlap: units(sides.overlap),
             };
-            tiles.each(outline, grid, strip, |column, reach| {
+            let visit = |column: i32, reach: Reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
                 };
                 visit(self.tile(column, row), entry);
-            });
+            };
+            if self.context.coverage.is_exact() {
+                tiles.each_touched(outline, grid, strip, visit);
+            } else {
+                tiles.each(outline, grid, strip, visit);
+            }
         }
     }
 
@@ -385,7 +394,7 @@ impl<'a> Binner<'a> {
         clippy::cast_possible_truncation,
         reason = "clamped to the tiles of a frame; just before the first, truncation names the first"
     )]
-    fn touched(&self, columns: [f64; 2], left: i32, right: i32) -> Span {
+    pub(super) fn touched(&self, columns: [f64; 2], left: i32, right: i32) -> Span {
         let bits = self.context.grid.bits();
         let (width, overlap) = (
             f64::from(self.samples.width << bits),
@@ -478,6 +487,7 @@ mod tests {
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
             shading: crate::raster::ShadingRate::default(),
+            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
@@ -527,6 +537,7 @@ mod tests {
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
             shading: crate::raster::ShadingRate::default(),
+            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings::default(),
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,

@@ -227,6 +227,7 @@ mod tests {
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
             shading: crate::raster::ShadingRate::default(),
+            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules,
                 ..SamplingSettings::default()

@@ -5,4 +5,5 @@ pub(in crate::raster) mod binner;
 pub(in crate::raster) mod bins;
 pub(in crate::raster) mod polygon_tiles;
 pub(in crate::raster) mod tile_command;
+mod touched_tiles;
 pub(in crate::raster) mod visible;

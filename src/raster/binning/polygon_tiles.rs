@@ -86,6 +86,51 @@ impl OutlineTiles {
         self.sweep(outline.outline.rule, all_rows, tiles, visit);
     }
 
+    /// The same for an outline of what it touches, in a strip of rows of pixels: tiles in which no edge lies are wound around as
+    /// the middles of their pixels are.
+    pub(crate) fn each_touched(
+        &mut self,
+        outline: OutlineWithEdges<'_>,
+        grid: SubpixelGrid,
+        strip: TileStrip,
+        visit: impl FnMut(i32, Reach),
+    ) {
+        let TileStrip {
+            rows: all_rows,
+            tiles,
+            width,
+            overlap,
+        } = strip;
+        self.columns.clear();
+        let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
+        self.columns.resize(count + 1, Column::default());
+        self.partial.clear();
+        let [top, bottom] = [all_rows.start, all_rows.end].map(|row| row << grid.bits());
+        for (edge, _) in outline.edges_in(all_rows) {
+            let [first, last] = if edge.top.y == edge.bottom.y {
+                [edge.top.x, edge.bottom.x].map(f64::from)
+            } else {
+                let line = Line::new(edge.top, edge.bottom);
+                [edge.top.y.max(top), edge.bottom.y.min(bottom)].map(|y| line.at(f64::from(y)))
+            };
+            let from = tile(first.min(last) - MARGIN - overlap, width, tiles);
+            let to = tile(first.max(last) + MARGIN, width, tiles);
+            if from >= tiles.end {
+                continue;
+            }
+            let right = (to + 1).clamp(tiles.start, tiles.end);
+            self.columns[to_index(from - tiles.start)].lying += 1;
+            self.columns[to_index(right - tiles.start)].lying -= 1;
+            let inside = edge.sample_rows(grid).intersection(all_rows);
+            if inside == all_rows {
+                self.columns[to_index(right - tiles.start)].winding += edge.winding;
+            } else if !inside.is_empty() {
+                self.partial.push((right, inside, edge.winding));
+            }
+        }
+        self.sweep(outline.outline.rule, all_rows, tiles, visit);
+    }
+
     fn sweep(&mut self, rule: FillRule, all_rows: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {
         let (mut lying, mut winding) = (0, 0);
         self.sort_partial(tiles.start);

@@ -208,6 +208,7 @@ mod tests {
             pattern,
             seed: crate::raster::Seed::default(),
             shading: crate::raster::ShadingRate::default(),
+            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 pixel: PixelSampling::Bilinear,
                 rules,

@@ -50,6 +50,7 @@
 //!
 //! Nothing is stored in between, as strips are in `vello_cpu`: a tile is painted while the spans of a shape are found.
 
+pub(in crate::raster) mod area;
 mod column_windings;
 pub(in crate::raster) mod covered;
 pub(in crate::raster) mod edge_bounds;

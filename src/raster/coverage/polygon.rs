@@ -39,10 +39,20 @@ pub(crate) struct OutlineWithEdges<'c> {
 pub(crate) struct OutlineEdge {
     pub(crate) top: GridPoint,
     pub(crate) bottom: GridPoint,
-    /// The sample rows that it crosses, in the frame.
+    /// The sample rows that it crosses, in the frame; those that it touches, where the outline holds what it touches.
     pub(crate) rows: Span,
     /// 1 where it runs downwards, -1 where it runs upwards.
     pub(crate) winding: i32,
+}
+
+impl OutlineEdge {
+    /// The sample rows that it crosses, in the frame or beyond it.
+    pub(crate) fn sample_rows(&self, grid: SubpixelGrid) -> Span {
+        Span {
+            start: grid.sample_at_or_after(self.top.y),
+            end: grid.sample_at_or_after(self.bottom.y),
+        }
+    }
 }
 
 /// Gathers the edges of one polygon.
@@ -56,6 +66,9 @@ pub(crate) struct OutlineBuilder<'a> {
     high: GridPoint,
     /// Whether all points so far are finite.
     finite: bool,
+    /// What brings a coordinate to the first row or column of samples at or after it, and to the one beyond the last before it,
+    /// when it is added and the bits between two samples are dropped.
+    to_rows: [i32; 2],
 }
 
 impl<'a> OutlineBuilder<'a> {
@@ -70,6 +83,24 @@ impl<'a> OutlineBuilder<'a> {
             low: everywhere(i32::MAX),
             high: everywhere(i32::MIN),
             finite: true,
+            to_rows: [(1 << (grid.bits() - 1)) - 1; 2],
+        }
+    }
+
+    /// The outline holds the edges and samples that touch anything of what lies around the samples: with one sample per pixel,
+    /// anything of the pixels.
+    pub(crate) fn touched(mut self) -> Self {
+        self.to_rows = [0, (1 << self.grid.bits()) - 1];
+        self
+    }
+
+    /// The samples between two coordinates.
+    #[inline]
+    fn span(&self, low: i32, high: i32) -> Span {
+        let [first, end] = self.to_rows;
+        Span {
+            start: (low + first) >> self.grid.bits(),
+            end: (high + end) >> self.grid.bits(),
         }
     }
 
@@ -121,13 +152,9 @@ impl<'a> OutlineBuilder<'a> {
         self.reach(from);
         self.reach(to);
         let (top, bottom, winding) = if from.y < to.y { (from, to, 1) } else { (to, from, -1) };
-        let rows = Span {
-            start: self.grid.sample_at_or_after(top.y),
-            end: self.grid.sample_at_or_after(bottom.y),
-        };
-        let rows = rows.intersection(self.frame.y);
+        let rows = self.span(top.y, bottom.y).intersection(self.frame.y);
         // What crosses right of the frame winds around nothing in it.
-        if rows.is_empty() || self.grid.sample_at_or_after(from.x.min(to.x)) >= self.frame.x.end {
+        if rows.is_empty() || self.span(from.x.min(to.x), 0).start >= self.frame.x.end {
             return;
         }
         self.edges.push(OutlineEdge {
@@ -140,23 +167,20 @@ impl<'a> OutlineBuilder<'a> {
 
     /// The outline of all contours; `None`, and no edges, where it holds no sample of the frame or a point is not finite.
     pub(crate) fn finish(self, rule: FillRule) -> Option<Outline> {
-        let span = |low: i32, high: i32| Span {
-            start: self.grid.sample_at_or_after(low),
-            end: self.grid.sample_at_or_after(high),
-        };
-        let edges = &mut self.edges[self.start..];
-        if edges.is_empty() {
+        let (low, high) = (self.low, self.high);
+        if self.edges.len() == self.start {
             return None;
         }
         let samples = SpanRect {
-            x: span(self.low.x, self.high.x),
-            y: span(self.low.y, self.high.y),
+            x: self.span(low.x, high.x),
+            y: self.span(low.y, high.y),
         }
         .intersection(self.frame);
         if !self.finite || samples.is_empty() {
             self.edges.truncate(self.start);
             return None;
         }
+        let edges = &mut self.edges[self.start..];
         sort_by_blocks(edges, samples.y);
         let tallest = edges.iter().map(|edge| edge.rows.end - edge.rows.start).max();
         Some(Outline {

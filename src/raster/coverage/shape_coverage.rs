@@ -3,6 +3,8 @@
 use fearless_simd::Simd;
 
 use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::area::row::CoveredArea;
+use crate::raster::coverage::area::shape_area::ShapeArea;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::free_positions::FreePositions;
@@ -30,6 +32,8 @@ pub(crate) struct ShapeCoverage {
     single: SpanStore,
     /// Finds what is covered where samples are not those of the grid.
     free_positions: Option<Box<FreePositions>>,
+    /// Finds areas where those count.
+    area: Option<Box<ShapeArea>>,
 }
 
 impl ShapeCoverage {
@@ -44,6 +48,7 @@ impl ShapeCoverage {
             store: SpanStore::default(),
             single: SpanStore::default(),
             free_positions: None,
+            area: None,
         }
     }
 
@@ -52,6 +57,27 @@ impl ShapeCoverage {
         Self {
             free_positions: Some(Box::new(free_positions)),
             ..self
+        }
+    }
+
+    /// The same where areas count.
+    pub(crate) fn with_area(self, area: ShapeArea) -> Self {
+        Self {
+            area: Some(Box::new(area)),
+            ..self
+        }
+    }
+
+    /// Whether areas count.
+    #[inline]
+    pub(crate) fn has_areas(&self) -> bool {
+        self.area.is_some()
+    }
+
+    /// As [`ShapeCoverage::each`] with areas instead of samples: each pixel at most once.
+    pub(crate) fn each_area(&mut self, shape: Shape<'_>, rect: SpanRect, visit: impl FnMut(i32, CoveredArea)) {
+        if let Some(area) = &mut self.area {
+            area.each(shape, rect, visit);
         }
     }
 

@@ -236,6 +236,7 @@ impl SeenFrom<'_> {
             };
             outline
                 .edges_in(rows)
+                .filter(|(edge, _)| !edge.sample_rows(grid).intersection(rows).is_empty())
                 .filter(|(edge, _)| EdgeWalker::new(grid, edge.top, edge.bottom, row).at_or_after() <= column)
                 // What runs up on the left of a point goes around it clockwise.
                 .map(|(edge, _)| -edge.winding)

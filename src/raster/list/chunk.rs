@@ -137,7 +137,7 @@ impl Chunk {
             DrawCommand::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
                 let float = self.floats.get(index as usize).map(|float| float.samples);
-                float.unwrap_or_else(|| SpanRect::of_samples(corners, context.grid, context.rules))
+                float.unwrap_or_else(|| context.samples_of(corners))
             }
             DrawCommand::Outline(index) => self.outlines[index as usize].samples,
             DrawCommand::Samples(index) => {

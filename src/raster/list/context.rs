@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use crate::geometry::subpixel::SubpixelGrid;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::positions::lattice;
+use crate::raster::sampling::pixel_coverage::PixelCoverage;
 use crate::raster::sampling::rate::SampleRate;
 use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::raster::settings::RasterSettings;
@@ -24,6 +25,8 @@ pub struct ListContext {
     pub(crate) rules: Rules,
     /// How often primitives are shaded in a pixel: at each sample where that is the same.
     pub(crate) shading: ShadingRate,
+    /// What tells how much of a pixel a primitive covers.
+    pub(crate) coverage: PixelCoverage,
     /// Pixels in a row, rows: of the frame.
     pub(crate) frame_size: [u32; 2],
     /// The same of what is painted, the frame and a margin around it, whose pixels are counted from the margin's first.
@@ -39,13 +42,12 @@ impl ListContext {
         Self::with_tiles(
             size,
             settings,
-            TileLayout::for_rate(settings.pattern.nearest(settings.rate), size),
+            TileLayout::for_rate(settings.sampled().0, size),
         )
     }
 
     pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {
-        let rate = settings.pattern.nearest(settings.rate);
-        let pattern = settings.pattern.simplest(rate);
+        let (rate, pattern) = settings.sampled();
         let margin = settings.filter.margin();
         Self {
             grid: lattice(pattern, rate),
@@ -58,11 +60,21 @@ impl ListContext {
             } else {
                 settings.shading
             },
+            coverage: settings.coverage,
             frame_size: size,
             size: size.map(|pixels| pixels + 2 * margin),
             margin,
             tiles: tiles.with_margin(margin),
         }
+    }
+
+    /// The box of the samples that a triangle may cover; of the pixels that it touches, where areas count.
+    #[inline]
+    pub(crate) fn samples_of(&self, corners: [GridPoint; 3]) -> SpanRect {
+        if self.coverage.is_exact() {
+            return SpanRect::of_touched(corners, self.grid);
+        }
+        SpanRect::of_samples(corners, self.grid, self.rules)
     }
 
     /// What a place in the frame, in pixels, has to be moved by to where it is painted.

@@ -144,6 +144,7 @@ mod tests {
                 pattern,
                 seed: crate::raster::Seed::default(),
                 shading: crate::raster::ShadingRate::default(),
+                coverage: crate::raster::PixelCoverage::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()

@@ -95,6 +95,9 @@ impl Kinds {
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
         let exact = || all(|command, chunk| command.is_opaque() && rounds_each_sample(&command.work(chunk)));
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
+        if context.coverage.is_exact() {
+            return Method::PerSample;
+        }
         if context.shading == ShadingRate::Centroid && !all_flat() {
             // What a primitive covered of a pixel before others came over it decides where it is shaded.
             return Method::PerSample;

@@ -6,11 +6,14 @@
 //! | [`visibility`] | opaque shapes on a grid | which surface each sample shows; shades once per pixel and surface |
 //! | [`per_sample`] | everything | the colour of each sample ([`sample_colors`]) |
 //!
+//! Where areas count instead of samples, [`per_sample`] paints everything, with [`by_area`].
+//!
 //! Where pixels take samples of their neighbours, [`wide`] resolves what [`per_sample`] has painted.
 //!
 //! [`per_sample`] is the simple one that the others are tested against; it also feeds the [`recorder`], from which pixels
 //! are explained.
 
+mod by_area;
 pub(in crate::raster) mod direct;
 pub(in crate::raster) mod method;
 pub(in crate::raster) mod per_sample;

@@ -8,6 +8,7 @@ use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
+use crate::raster::paint::by_area::AreaQueue;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
 use crate::raster::paint::shade_once::OnceQueue;
@@ -33,6 +34,8 @@ pub(crate) struct PerSamplePainter<'a> {
     colors: Vec<Premultiplied16>,
     /// The same where a primitive is shaded once in a pixel.
     once: OnceQueue<'a>,
+    /// The same where areas count.
+    areas: AreaQueue,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
     /// When a single pixel is replayed: what was painted.
@@ -52,6 +55,7 @@ impl<'a> PerSamplePainter<'a> {
             points: Vec::new(),
             colors: Vec::new(),
             once: OnceQueue::new(context),
+            areas: AreaQueue::default(),
             samples_shaded: 0,
             recorder: None,
         }
@@ -69,6 +73,12 @@ impl<'a> PerSamplePainter<'a> {
                 self.record(chunk, *entry);
             }
             match entry.work(chunk) {
+                Work::Flat(shape, color) if shape_coverage.has_areas() => {
+                    self.area(shape, shape_coverage, |_| Shader::flat(color));
+                }
+                Work::Shaded(shape, corners, paint) if shape_coverage.has_areas() => {
+                    self.area(shape, shape_coverage, |context| Shader::new(context, corners, paint));
+                }
                 Work::Flat(shape, color) => self.shape(shape, shape_coverage, |_| Shader::flat(color)),
                 Work::Shaded(shape, corners, paint) if self.context.shading.is_once() => {
                     self.shape_once(shape, shape_coverage, |context| Shader::new(context, corners, paint));
@@ -216,6 +226,33 @@ impl<'a> PerSamplePainter<'a> {
         if let Some(at_centre) = prepared {
             self.samples_shaded += self.once.shade([rect.x.start, rect.y.start], &at_centre, shader);
             self.once.paint(self.layers.top(), &at_centre, self.recorder.as_mut());
+        }
+    }
+
+    /// As [`PerSamplePainter::shape`], where the shape covers areas of pixels.
+    fn area(
+        &mut self,
+        shape: Shape<'_>,
+        shape_coverage: &mut ShapeCoverage,
+        shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
+    ) {
+        let rect = self.layers.base().rect;
+        let (mut prepared, mut painted) = (None, SpanRect::EMPTY);
+        shape_coverage.each_area(shape, rect, |y, covered| {
+            painted = painted.union(covered.pixels(y));
+            let shader = prepared.get_or_insert_with(|| shader(&self.context));
+            let Some(color) = shader.constant() else {
+                return self.areas.note(rect, y, covered);
+            };
+            self.layers.top().fill_area(y, covered, color);
+            if let Some(recorder) = &mut self.recorder {
+                recorder.paint_area(covered.area, color);
+            }
+        });
+        self.layers.top().note_painted(painted.intersection(rect));
+        if let Some(shader) = prepared {
+            let recorder = self.recorder.as_mut();
+            self.samples_shaded += self.areas.paint(self.layers.top(), &self.context, &shader, recorder);
         }
     }
 

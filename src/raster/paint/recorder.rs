@@ -2,6 +2,7 @@
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
+use crate::raster::coverage::area::row::Area;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
@@ -28,6 +29,8 @@ pub struct PaintedCommand {
     pub count: usize,
     /// Where it was shaded for all of them, if not at each.
     pub shaded: Option<ShadingPlace>,
+    /// Which part of the pixel's area it covered, where areas count: in parts of `2^16`.
+    pub area: Option<u32>,
 }
 
 /// Kinds of commands.
@@ -105,6 +108,7 @@ impl Recorder {
             fragments: Vec::new(),
             count: 0,
             shaded: None,
+            area: None,
         });
     }
 
@@ -173,6 +177,14 @@ impl Recorder {
             self.colors[sample] = Some(color(i));
             i += 1;
         });
+    }
+
+    /// The command paints a part of the pixel's area.
+    pub(in crate::raster) fn paint_area(&mut self, area: Area, color: Premultiplied16) {
+        self.paint_all(vec![color]);
+        if let Some(command) = self.painted.last_mut() {
+            command.area = Some(area.parts());
+        }
     }
 
     /// The command was shaded there for all samples.

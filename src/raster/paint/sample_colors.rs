@@ -12,6 +12,7 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
+use crate::raster::coverage::area::row::{Area, CoveredArea};
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{Span, SpanRect};
@@ -142,6 +143,19 @@ impl SampleColors {
                 &mut self.whole[pixel..=pixel]
             };
             color.over_all(colors, self.rules);
+        }
+    }
+
+    /// Paints a part of some pixels of row `y`, which have one colour each, with one colour: each is the mean of what it showed
+    /// and of what it shows where it is covered.
+    pub(crate) fn fill_area(&mut self, y: i32, covered: CoveredArea, color: Premultiplied16) {
+        let CoveredArea { xs, area } = covered;
+        if area == Area::WHOLE || xs.is_empty() {
+            return self.fill(xs, y, color);
+        }
+        let first = self.index(xs.start, y);
+        for below in &mut self.whole[first..first + xs.length()] {
+            *below = self.space.mix(*below, color.over(*below, self.rules), area.parts());
         }
     }
 

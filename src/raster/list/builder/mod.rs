@@ -75,9 +75,14 @@ impl<'a> ChunkBuilder<'a> {
             scanner: RowScanner::default(),
             spans: SpanStore::default(),
             // A few points of a finer lattice need not be samples, and stamps are exact.
-            stamps: context.is_grid() && context.rules != Rules::Float,
+            stamps: context.is_grid() && context.rules != Rules::Float && !context.coverage.is_exact(),
             counts: false,
-            hidden: Hidden::Dropped,
+            // What is drawn over a pixel's area does not hide what lies there.
+            hidden: if context.coverage.is_exact() {
+                Hidden::Kept
+            } else {
+                Hidden::Dropped
+            },
             waiting: Waiting {
                 count: 0,
                 hopeless: 0,
@@ -170,6 +175,9 @@ impl<'a> ChunkBuilder<'a> {
         self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
+        if self.context.coverage.is_exact() {
+            builder = builder.touched();
+        }
         for contour in contours {
             builder.contour(contour);
         }
@@ -332,6 +340,7 @@ mod tests {
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
             shading: crate::raster::ShadingRate::default(),
+            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()

@@ -127,6 +127,9 @@ impl ChunkBuilder<'_> {
     #[inline]
     fn snapped(&mut self, points: [DVec2; 3], paint: &Paint) {
         let (grid, rules) = (self.context.grid, self.context.rules);
+        if self.context.coverage.is_exact() {
+            return self.by_area(points, paint);
+        }
         if rules == Rules::Float {
             return self.float(points, paint);
         }
@@ -165,6 +168,21 @@ impl ChunkBuilder<'_> {
         {
             self.drop_below_triangle(corners);
         }
+    }
+
+    /// Adds a triangle inside the guard band that covers areas of pixels, unless it touches none of the frame.
+    #[cold]
+    fn by_area(&mut self, points: [DVec2; 3], paint: &Paint) {
+        let corners = points.map(|point| self.context.grid.snap(point));
+        let pixels = self.context.samples_of(corners).intersection(self.frame);
+        if pixels.is_empty() || doubled_area(corners) == 0 {
+            return;
+        }
+        let paint = self.paint(paint);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.push(DrawCommand::Triangle(index));
+        self.chunk.triangle_count += 1;
     }
 
     /// Adds a triangle inside the guard band by the rules of first drafts. Colours and coordinates are interpolated as

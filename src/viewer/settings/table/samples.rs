@@ -1,6 +1,6 @@
 //! Where samples lie, and how many.
 
-use crate::raster::{SamplePattern, SampleRate, Seed, ShadingRate};
+use crate::raster::{PixelCoverage, SamplePattern, SampleRate, Seed, ShadingRate};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use crate::viewer::settings::{Settings, values};
@@ -139,6 +139,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("shading-rate", "shading rate", ShadingRate, render.shading)
+    },
+    PictureSetting {
+        help: "What tells how much of a pixel a primitive covers: its samples, or its exact area, composited source-over as renderers of vector graphics do",
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("", "Coverage", Control::List)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Exact areas give edges every shade for the price of one colour per pixel, but let the background through between neighbours that share an edge; samples, their pattern and their shading are without effect then",
+            ..SettingCommand::new(
+                "coverage",
+                "Coverage",
+                "Covers pixels by samples, or by exact areas that are composited source-over",
+            )
+        }],
+        ..named!("coverage", "coverage", PixelCoverage, render.coverage)
     },
 ];
 

@@ -1,0 +1,164 @@
+//! The areas of outlines, row by row of pixels, by their fill rule, however their contours overlap.
+//!
+//! ```text
+//!      \    /         a row of pixels whose edges cross:
+//!     --\--/----
+//!        \/           one band above the crossing, one below; in each of them
+//!     ---/\-----      edges keep their order from left to right
+//!       /  \
+//! ```
+
+use crate::geometry::FillRule;
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::area::edge::{AreaEdge, PIXEL, rounded};
+use crate::raster::coverage::area::row::{AreaRow, CoveredArea};
+use crate::raster::coverage::polygon::OutlineWithEdges;
+use crate::raster::span::Span;
+
+/// Bands of equal height that a row is cut into where its edges are too many to look for each crossing: areas are then those of
+/// edges that change their places at these heights only.
+const EQUAL_BANDS: i64 = 256;
+
+/// Edges of one row among which crossings are looked for.
+const MOST_EDGES: usize = 512;
+
+/// How often the edges of one row are looked at, one look for each band.
+const MOST_LOOKS: usize = 1 << 20;
+
+/// Finds the areas of outlines, reusing its memory.
+#[derive(Debug, Default)]
+pub(super) struct OutlineAreas {
+    /// The edges in some rows, by their first row, each with those rows.
+    edges: Vec<(Span, AreaEdge)>,
+    /// Those of the row at work.
+    active: Vec<(Span, AreaEdge)>,
+    /// Their parts in this row.
+    parts: Vec<Part>,
+    /// Where bands begin and end.
+    heights: Vec<i64>,
+    /// The edges of the band at work: where they cross it, twice the middle; which; how they wind.
+    ordered: Vec<(i64, usize)>,
+    row: AreaRow,
+}
+
+/// What of an edge lies in a row.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    edge: AreaEdge,
+    y: [i64; 2],
+    x: [i64; 2],
+}
+
+impl OutlineAreas {
+    /// Calls `visit` with what an outline covers of these rows and columns of pixels: from top to bottom, from left to right.
+    pub(super) fn each(
+        &mut self,
+        of: OutlineWithEdges<'_>,
+        grid: SubpixelGrid,
+        [columns, rows]: [Span; 2],
+        mut visit: impl FnMut(i32, CoveredArea),
+    ) {
+        self.row.go_to(columns);
+        self.edges.clear();
+        self.edges.extend(of.edges_in(rows).map(|(edge, inside)| {
+            let ends = [edge.top, edge.bottom];
+            (inside, AreaEdge::new(grid, ends, edge.winding))
+        }));
+        self.edges.sort_by_key(|(rows, _)| rows.start);
+        self.active.clear();
+        let mut next = 0;
+        for y in rows.start..rows.end {
+            self.active.retain(|(rows, _)| rows.end > y);
+            while let Some(edge) = self.edges.get(next).filter(|(rows, _)| rows.start <= y) {
+                self.active.push(*edge);
+                next += 1;
+            }
+            if self.active.is_empty() {
+                continue;
+            }
+            self.sum_up(i64::from(y) * PIXEL, of.outline.rule);
+            self.row.take(|covered| visit(y, covered));
+        }
+    }
+
+    /// Adds the row of pixels that begins at `top`.
+    fn sum_up(&mut self, top: i64, rule: FillRule) {
+        let bottom = top + PIXEL;
+        self.parts.clear();
+        self.parts.extend(self.active.iter().filter_map(|(_, edge)| {
+            let y = [edge.top[1].max(top), edge.bottom[1].min(bottom)];
+            (y[0] < y[1]).then(|| Part {
+                edge: *edge,
+                y,
+                x: y.map(|y| edge.x_at(y)),
+            })
+        }));
+        self.parts.sort_unstable_by_key(|part| (part.x[0] + part.x[1], part.edge.top, part.edge.bottom, part.edge.winding));
+        let is_through = |part: &Part| part.y == [top, bottom];
+        let keeps_order = |pair: &[Part]| pair[0].x[0] <= pair[1].x[0] && pair[0].x[1] <= pair[1].x[1];
+        if self.parts.iter().all(is_through) && self.parts.windows(2).all(keeps_order) {
+            let edges = self.parts.iter().map(|part| &part.edge);
+            return add_band(&mut self.row, edges, [top, bottom], rule);
+        }
+        self.find_bands([top, bottom]);
+        for i in 1..self.heights.len() {
+            let band = [self.heights[i - 1], self.heights[i]];
+            let middle = i64::midpoint(band[0], band[1]);
+            self.ordered.clear();
+            for (number, part) in self.parts.iter().enumerate() {
+                if part.y[0] <= middle && middle < part.y[1] {
+                    let place = band.map(|y| part.edge.x_at(y));
+                    self.ordered.push((place[0] + place[1], number));
+                }
+            }
+            self.ordered.sort_unstable();
+            let edges = self.ordered.iter().map(|(_, number)| &self.parts[*number].edge);
+            add_band(&mut self.row, edges, band, rule);
+        }
+    }
+
+    /// Finds the heights at which the edges of a row end or cross.
+    fn find_bands(&mut self, [top, bottom]: [i64; 2]) {
+        let Self { parts, heights, .. } = self;
+        heights.clear();
+        heights.extend([top, bottom]);
+        heights.extend(parts.iter().flat_map(|part| part.y));
+        if parts.len() <= MOST_EDGES {
+            for (number, part) in parts.iter().enumerate() {
+                heights.extend(parts[number + 1..].iter().filter_map(|other| crossing(part, other)));
+            }
+        }
+        heights.sort_unstable();
+        heights.dedup();
+        if parts.len() > MOST_EDGES || heights.len() * parts.len() > MOST_LOOKS {
+            heights.clear();
+            heights.extend((0..=EQUAL_BANDS).map(|band| top + (bottom - top) * band / EQUAL_BANDS));
+        }
+    }
+}
+
+/// The height at which two edges cross, if they do inside the row.
+fn crossing(a: &Part, b: &Part) -> Option<i64> {
+    let y = [a.y[0].max(b.y[0]), a.y[1].min(b.y[1])];
+    if y[0] >= y[1] || a.x[0].max(a.x[1]) < b.x[0].min(b.x[1]) {
+        return None;
+    }
+    let [above, below] = y.map(|y| a.edge.x_at(y) - b.edge.x_at(y));
+    if above.signum() * below.signum() >= 0 {
+        return None;
+    }
+    let part = above as f64 / (above - below) as f64;
+    Some(y[0] + rounded((y[1] - y[0]) as f64 * part)).filter(|at| y[0] < *at && *at < y[1])
+}
+
+/// Adds those of a band's edges, from left to right, at which the shape begins or ends.
+fn add_band<'e>(row: &mut AreaRow, edges: impl Iterator<Item = &'e AreaEdge>, band: [i64; 2], rule: FillRule) {
+    let (mut winding, mut is_inside) = (0, false);
+    for edge in edges {
+        winding += edge.winding;
+        if rule.encloses(winding) != is_inside {
+            row.add(edge, band, if is_inside { -1 } else { 1 });
+            is_inside = !is_inside;
+        }
+    }
+}

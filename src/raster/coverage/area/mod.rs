@@ -3,7 +3,7 @@
 //! Every edge adds to the pixels that it crosses the area between itself and their right sides, and to all pixels right of them
 //! the height that it has there; the sum over all edges of a shape, each counted as it enters or leaves it from left to right, is
 //! the covered area. That is how fonts are drawn (Raph Levien, "Inside the fastest font renderer in the world", 2016; Sean
-//! Barrett, "How the stb_truetype anti-aliased software rasterizer v2 works", 2015).
+//! Barrett, "How the `stb_truetype` anti-aliased software rasterizer v2 works", 2015).
 //!
 //! ```text
 //!     +-----+-----+-----+

@@ -26,22 +26,17 @@ impl Area {
 
     /// Twice the area in units of a row: rounded to nearest.
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to what a pixel has"
-    )]
     fn of_doubled(doubled: i64) -> Self {
         /// Bits beyond the 16 that are kept.
         const MORE: u32 = 2 * BITS + 1 - 16;
         let rounded = (doubled + (1 << (MORE - 1))) >> MORE;
-        Self(rounded.clamp(0, 1 << 16) as u32)
+        Self(u32::try_from(rounded.max(0)).map_or(1 << 16, |parts| parts.min(1 << 16)))
     }
 }
 
 impl CoveredArea {
     /// The pixels, in row `y`.
-    pub(crate) fn pixels(&self, y: i32) -> SpanRect {
+    pub(crate) fn pixels(self, y: i32) -> SpanRect {
         SpanRect {
             x: self.xs,
             y: Span { start: y, end: y + 1 },

@@ -4,7 +4,7 @@
 use super::explanation::Question;
 use super::model::{Cure, Explanation, Setting, Truth};
 use crate::post::PostProcess;
-use crate::raster::{SamplePattern, SampleRate, ShadingRate};
+use crate::raster::{PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
 use crate::texture::{
@@ -122,6 +122,7 @@ fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(
         (Setting::Pattern, patterns(own)),
         (Setting::ShadingRate, shading_rates(own)),
         (Setting::PostProcess, post_processes(own)),
+        (Setting::Coverage, coverages(own)),
     ];
     if reads_textures {
         all.extend(of_textures(own));
@@ -197,6 +198,21 @@ fn post_processes(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
         .into_iter()
         .filter(|process| *process != own.post_process && is_sensible(process))
         .map(|post_process| (post_process.name().to_owned(), RenderSettings { post_process, ..*own }))
+        .collect()
+}
+
+/// Exact areas where there are many samples already, and samples where areas are covered: a few samples more are the first thing
+/// to try.
+fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    const MANY: u32 = 16;
+    let coverage = match own.coverage {
+        PixelCoverage::Exact => PixelCoverage::Sampled,
+        PixelCoverage::Sampled => PixelCoverage::Exact,
+    };
+    let is_sensible = own.coverage.is_exact() || own.sample_rate.samples() >= MANY;
+    is_sensible
+        .then(|| (coverage.name().to_owned(), RenderSettings { coverage, ..*own }))
+        .into_iter()
         .collect()
 }
 

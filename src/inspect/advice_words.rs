@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
 use super::numbers::{number, percent, significant};
 use crate::color::ResolveSpace;
-use crate::raster::ShadingRate;
+use crate::raster::{PixelCoverage, ShadingRate};
 use crate::texture::PyramidFilter;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
@@ -88,7 +88,7 @@ impl Explanation {
                 Some(_) => "SMAA has guessed here.".to_owned(),
                 None => "A guess from the form of the edges happens to fit here.".to_owned(),
             }),
-            Setting::Rules | Setting::Pattern => None,
+            Setting::Rules | Setting::Pattern | Setting::Coverage => None,
         }
     }
 
@@ -113,7 +113,7 @@ impl Explanation {
     }
 
     fn thin_parts(&self) -> Option<String> {
-        if self.resolve.around.is_some() {
+        if self.exact || self.resolve.around.is_some() {
             // Neighbours' samples decide, too: the pixel may show too much of it as well as too little.
             return None;
         }
@@ -156,6 +156,9 @@ impl Explanation {
 
     /// The part of the samples that any piece of a paint's primitive covers.
     pub(super) fn covered_part(&self, paint: &Paint) -> f64 {
+        if self.exact {
+            return paint.covered.unwrap_or(1.0);
+        }
         let pieces = self
             .paints
             .iter()
@@ -283,6 +286,8 @@ impl Cure {
                 "Shading in the centroid of the covered samples".to_owned()
             }
             Setting::ShadingRate => format!("Shading per {value}"),
+            Setting::Coverage if value == PixelCoverage::Exact.name() => "Coverage by exact areas".to_owned(),
+            Setting::Coverage => "Coverage by samples".to_owned(),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
             Setting::Pattern => {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::depth;
+use super::{areas, depth};
 use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
 use super::numbers::{hex, one_line};
 use super::resolve::{levels, resolve};
@@ -52,7 +52,9 @@ impl Explanation {
         } = *question;
         let mut replay = render::replay(&subject, size, pixel)?;
         let explainer = Explainer::new(subject, size, pixel);
-        let mut missed = explainer.missed(&replay.painted, MOST_MISSED);
+        // Where areas are covered, only what is smaller than the smallest area is missed.
+        let most = if subject.settings.covers_areas() { 0 } else { MOST_MISSED };
+        let mut missed = explainer.missed(&replay.painted, most);
         let quotes = subject.scene.quotes();
         depth::drop_idle_viewports(&mut replay, subject.scene);
         let (seen, unlisted) = depth::list(&mut replay);
@@ -95,6 +97,8 @@ impl Explanation {
             hex: hex(color),
             resolve: resolve(&replay, subject.settings),
             smoothing,
+            exact: subject.settings.covers_areas(),
+            conflation: areas::conflation(&paints, &explainer),
             samples,
             paints,
             pinholes,
@@ -158,6 +162,7 @@ impl Question<'_> {
                     seen: *seen,
                 })
                 .collect(),
+            covered: op.covered_part(),
             width: None,
             shaded_at: op.shaded.map(ShadingPlace::position),
             views,

@@ -8,6 +8,7 @@
 mod accumulation;
 mod advice;
 mod advice_words;
+mod areas;
 mod around_words;
 mod contributions;
 mod depth;
@@ -36,7 +37,7 @@ pub use differences::Difference;
 pub use explanation::Question;
 pub use level_in_use::LevelInUse;
 pub use model::{
-    Around, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample,
+    Around, Conflation, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample,
     Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View, Wrapped,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};

@@ -34,6 +34,12 @@ pub struct Explanation {
     /// What was done to the finished pixel after that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smoothing: Option<Smoothing>,
+    /// Whether exact areas of the pixel are covered: it has no samples then, but one colour, which stands as its only one.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub exact: bool,
+    /// Where areas are covered, neighbours between which what is below shows through.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conflation: Option<Conflation>,
     /// Its samples when everything is painted.
     pub samples: Vec<Sample>,
     /// Everything that painted any of them, first to last; of more than some hundred the last ones, and those that samples
@@ -48,6 +54,15 @@ pub struct Explanation {
     pub missed: Vec<Missed>,
     /// What the pixel should be, and what brings it nearer; `None` where nobody asked, or there is too much to draw.
     pub truth: Option<Truth>,
+}
+
+/// Primitives that cover all of a pixel together, without overlap, where areas are covered.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Conflation {
+    /// Their numbers among the paints.
+    pub paints: Vec<usize>,
+    /// The part of what is below that shows through all the same.
+    pub through: f64,
 }
 
 /// How samples became a pixel.
@@ -157,6 +172,8 @@ pub enum Setting {
     ShadingRate,
     /// What is done to finished pixels.
     PostProcess,
+    /// What tells how much of a pixel a primitive covers.
+    Coverage,
 }
 
 impl Explanation {
@@ -164,7 +181,6 @@ impl Explanation {
     pub fn resolved(&self) -> [u8; 4] {
         self.smoothing.as_ref().map_or(self.color, |smoothing| smoothing.before)
     }
-}
 
 impl Resolve {
     /// [`Resolve::space`] as a setting.
@@ -231,6 +247,9 @@ pub struct Paint {
     /// The pattern that fills it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<PatternUse>,
+    /// The part of the pixel by which it was composited, `0.0..=1.0`, where areas are covered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covered: Option<f64>,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
     /// Of the topmost one that is seen, where it does not cover all of the pixel: how wide it is there and beside it in its

@@ -168,8 +168,26 @@ impl Fragment {
             }
             Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(),
             Shape::EndLayer { blend: Some(blend), .. } => self.blend_lines(blend),
-            _ => self.over_lines(),
+            _ => match paint.covered.filter(|covered| *covered < 1.0) {
+                Some(covered) => self.area_lines(covered),
+                None => self.over_lines(),
+            },
         }
+    }
+
+    /// How it was composited by a part of the pixel's area.
+    fn area_lines(&self, covered: f64) -> Vec<String> {
+        let alpha = self.color[3] / 255.0;
+        vec![
+            format!("colour    {}", color(self.color)),
+            format!(
+                "area      {} of the pixel, so alpha x area is {:.4}",
+                percent(covered),
+                alpha * covered
+            ),
+            format!("over      {}", color(self.before)),
+            format!("gives     {}", color(self.after)),
+        ]
     }
 
     /// How much a clip path or mask leaves, in levels of 255.

@@ -25,7 +25,11 @@ impl Explanation {
     fn mean_lines(&self) -> Vec<String> {
         let resolve = &self.resolve;
         let mut lines = Vec::new();
-        if resolve.samples == 1 {
+        if self.exact {
+            lines.push(
+                "The pixel holds one colour, to which each primitive added its own by its alpha times the area that it covers.".to_owned(),
+            );
+        } else if resolve.samples == 1 {
             lines.push("One sample is the pixel.".to_owned());
         } else {
             let weight = format!("1/{}", resolve.samples);

@@ -16,6 +16,7 @@ impl Explanation {
     /// Where this pixel has a seam, what it comes of. What cures it, if anything does, is for [`super::Truth`] to find out.
     pub(super) fn seams(&self) -> Vec<String> {
         let seams = [
+            self.conflation_words(),
             self.painted_twice(),
             self.pinhole_hint(),
             self.left_open(),

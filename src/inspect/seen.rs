@@ -24,7 +24,7 @@ pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
                 };
                 *sample |= match op.kind {
                     PaintedKind::EndLayer(compositing) => compositing.hides(color),
-                    PaintedKind::Primitive | PaintedKind::BeginLayer => color.is_opaque(),
+                    PaintedKind::Primitive | PaintedKind::BeginLayer => color.is_opaque() && op.is_whole(),
                 };
             }
         }

@@ -71,9 +71,11 @@ impl Explanation {
         let topic = |title: String, lines| Topic { title, lines };
         let mut topics = vec![
             topic(format!("Pixel ({x}, {y}) of {width} x {height}"), self.pixel_lines()),
-            topic("How samples became the colour".to_owned(), self.resolve_lines()),
-            topic("What each sample shows".to_owned(), self.map_lines()),
+            topic(self.resolve_title().to_owned(), self.resolve_lines()),
         ];
+        if !self.exact {
+            topics.push(topic("What each sample shows".to_owned(), self.map_lines()));
+        }
         if let Some(words) = self.unlisted_words() {
             topics.push(topic("What is not listed".to_owned(), vec![words]));
         }
@@ -95,7 +97,7 @@ impl Explanation {
             topics.push(topic(self.paint_title(paint), lines));
         }
         if self.paints.is_empty() {
-            let nothing = vec!["every sample shows the background".to_owned()];
+            let nothing = vec![if self.exact { "it shows the background" } else { "every sample shows the background" }.to_owned()];
             topics.push(topic("Nothing paints this pixel".to_owned(), nothing));
         }
         let help = self.help_lines();

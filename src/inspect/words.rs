@@ -36,6 +36,9 @@ impl Explanation {
 
     /// What the samples show, in one sentence, such as `9 of 16 samples show 1 (polygon "left", line 3), 7 show the background.`
     fn seen_words(&self) -> String {
+        if self.exact {
+            return self.area_words();
+        }
         let mut seen: Vec<(Option<usize>, usize)> = Vec::new();
         for sample in &self.samples {
             match seen.iter().position(|(other, _)| *other == sample.seen) {
@@ -74,6 +77,9 @@ impl Explanation {
             .get(sample)
             .map(|sample| sample.position)
             .unwrap_or_default();
+        if self.exact {
+            return "the pixel's centre".to_owned();
+        }
         format!("sample {} at ({}, {})", sample + 1, number(at[0]), number(at[1]))
     }
 
@@ -184,7 +190,9 @@ impl Explanation {
         };
         let mut lines: Vec<String> = found.source.iter().flat_map(Source::lines).collect();
         lines.push(self.painted_line(paint, found));
-        if let Some(area) = found.area.filter(|_| found.is_crisp()) {
+        if self.exact {
+            // Told already.
+        } else if let Some(area) = found.area.filter(|_| found.is_crisp()) {
             let whole = if self.covered_part(found) > 0.0 { "all" } else { "none" };
             let area = percent(area);
             lines.push(format!(
@@ -239,6 +247,9 @@ impl Explanation {
                     self.kept(found)
                 )
             }
+            Shape::Triangle { .. } | Shape::Polygon { .. } if self.exact => {
+                self.area_line(paint, found)
+            }
             Shape::WholePixel | Shape::CanvasOutline => {
                 "one pixel wide at every zoom: paints whole pixels, whatever the samples".to_owned()
             }
@@ -272,6 +283,18 @@ impl Explanation {
                 )
             }
         }
+    }
+
+    /// What a paint does to a pixel that has areas and no samples.
+    fn area_line(&self, paint: usize, found: &Paint) -> String {
+        let part = if found.in_mask { "; part of a clip path or mask" } else { "" };
+        let lost = match self.unseen(paint, 0) {
+            None => "",
+            Some(Unseen::TakenBy(_)) => "; it is taken away again",
+            Some(Unseen::Transparent) => "; it is transparent",
+            Some(Unseen::Hidden) => "; it is hidden",
+        };
+        format!("paints {} of the pixel{part}{lost}", percent(found.covered.unwrap_or(0.0)))
     }
 
     /// Which samples a clip path or mask leaves something of, in words.
@@ -311,7 +334,11 @@ impl Explanation {
                     Shape::Polygon { rule, .. } => rule,
                     _ => "nonzero",
                 };
-                let inside = self.fragment(paint, sample).is_some();
+                let inside = if self.exact {
+                    *winding != 0 && (winding % 2 != 0 || rule == "nonzero")
+                } else {
+                    self.fragment(paint, sample).is_some()
+                };
                 let verdict = if inside { "inside" } else { "outside" };
                 // What is scanned of a crisp shape are whole pixels.
                 lines.push(if found.is_crisp() {

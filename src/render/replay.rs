@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{Polygon, area_in_pixel, cut_to_window, width_in_window};
+use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
@@ -299,6 +299,29 @@ impl<'a> Explainer<'a> {
             | PrimitiveKind::BeginLayer
             | PrimitiveKind::EndLayer { .. } => None,
         }
+    }
+
+    /// The part of the pixel that lies in both of two primitives, by the areas of both, and of what lies in one of them only; `None`
+    /// where one has no area of its own, and for polygons too tangled to be measured.
+    pub fn overlap(&self, sources: [u32; 2]) -> Option<f64> {
+        let [a, b] = [self.area(sources[0])?, self.area(sources[1])?];
+        let screen = self.screen();
+        let corner = DVec2::from(self.pixel.map(f64::from));
+        let mut contours: Vec<Vec<DVec2>> = Vec::new();
+        for source in sources {
+            match &self.subject.scene.primitives.get(source as usize)?.kind {
+                PrimitiveKind::Triangle { points, .. } => {
+                    contours.push(points.map(|point| screen.place(point)).to_vec());
+                }
+                PrimitiveKind::Polygon { polygon, .. } => screen.with_true_edges(polygon, |polygon| {
+                    contours.extend(placed(polygon, &screen).map(Iterator::collect));
+                }),
+                _ => return None,
+            }
+        }
+        let contours = contours.iter().map(|contour| contour.iter().copied());
+        let in_one = cut_to_window(contours, FillRule::EvenOdd, [corner, corner + 1.0]).area()?;
+        Some((a + b - in_one) / 2.0)
     }
 
     /// How wide a primitive is in the thinnest direction, in pixels, as far as it lies in the pixel or at most `around` pixels

@@ -117,11 +117,13 @@ impl ExplanationPanel {
             });
         }
         self.comparison(ui, viewer, commands);
-        section(ui, "resolve", "How samples became the colour", false, |ui| {
+        section(ui, "resolve", explanation.resolve_title(), false, |ui| {
             lines(ui, &explanation.resolve_lines());
         });
         let count = explanation.samples.len();
-        let heading = if count == 1 {
+        let heading = if explanation.exact {
+            "The pixel".to_owned()
+        } else if count == 1 {
             "The sample".to_owned()
         } else {
             format!("The {count} samples")

@@ -33,6 +33,18 @@ pub struct PaintedCommand {
     pub area: Option<u32>,
 }
 
+impl PaintedCommand {
+    /// Which part of the pixel's area it covered, `0.0..=1.0`, where areas count.
+    pub fn covered_part(&self) -> Option<f64> {
+        Some(f64::from(self.area?) / f64::from(Area::WHOLE.parts()))
+    }
+
+    /// Whether it covered all of the samples that it painted.
+    pub fn is_whole(&self) -> bool {
+        self.area.is_none_or(|area| area == Area::WHOLE.parts())
+    }
+}
+
 /// Kinds of commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaintedKind {

@@ -7,10 +7,12 @@
 //!     ---/\-----      edges keep their order from left to right
 //!       /  \
 //! ```
+//!
+//! Edges that lie apart from all others, as most do, are looked at by themselves.
 
 use crate::geometry::FillRule;
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::coverage::area::edge::{AreaEdge, PIXEL, rounded};
+use crate::raster::coverage::area::edge::{AreaEdge, PIXEL, ordered, rounded};
 use crate::raster::coverage::area::row::{AreaRow, CoveredArea};
 use crate::raster::coverage::polygon::OutlineWithEdges;
 use crate::raster::span::Span;
@@ -36,7 +38,7 @@ pub(super) struct OutlineAreas {
     parts: Vec<Part>,
     /// Where bands begin and end.
     heights: Vec<i64>,
-    /// The edges of the band at work: where they cross it, twice the middle; which; how they wind.
+    /// The edges of the band at work: where they cross it, twice the middle; which.
     ordered: Vec<(i64, usize)>,
     row: AreaRow,
 }
@@ -44,9 +46,22 @@ pub(super) struct OutlineAreas {
 /// What of an edge lies in a row.
 #[derive(Clone, Copy, Debug)]
 struct Part {
+    /// Its least and its greatest column.
+    reach: [i64; 2],
     edge: AreaEdge,
     y: [i64; 2],
     x: [i64; 2],
+}
+
+/// Cuts groups of edges into bands in which they keep their order.
+struct Bands<'m> {
+    /// Where bands begin and end.
+    heights: &'m mut Vec<i64>,
+    /// The edges of the band at work: where they cross it, twice the middle; which.
+    ordered: &'m mut Vec<(i64, usize)>,
+    rule: FillRule,
+    /// How often the contours wind around what lies left of the group.
+    around: i32,
 }
 
 impl OutlineAreas {
@@ -85,41 +100,85 @@ impl OutlineAreas {
     fn sum_up(&mut self, top: i64, rule: FillRule) {
         let bottom = top + PIXEL;
         self.parts.clear();
-        self.parts.extend(self.active.iter().filter_map(|(_, edge)| {
-            let y = [edge.top[1].max(top), edge.bottom[1].min(bottom)];
-            (y[0] < y[1]).then(|| Part {
-                edge: *edge,
-                y,
-                x: y.map(|y| edge.x_at(y)),
-            })
-        }));
-        self.parts.sort_unstable_by_key(|part| (part.x[0] + part.x[1], part.edge.top, part.edge.bottom, part.edge.winding));
-        let is_through = |part: &Part| part.y == [top, bottom];
-        let keeps_order = |pair: &[Part]| pair[0].x[0] <= pair[1].x[0] && pair[0].x[1] <= pair[1].x[1];
-        if self.parts.iter().all(is_through) && self.parts.windows(2).all(keeps_order) {
-            let edges = self.parts.iter().map(|part| &part.edge);
-            return add_band(&mut self.row, edges, [top, bottom], rule);
+        self.parts.extend(self.active.iter().map(|(_, edge)| Part::new(*edge, [top, bottom])));
+        self.parts.sort_unstable_by_key(Part::order);
+        let Self {
+            parts, ordered, heights, row, ..
+        } = self;
+        let (mut rest, mut around) = (parts.as_slice(), 0);
+        while let Some((first, others)) = rest.split_first() {
+            let mut end = first.reach[1];
+            let apart = others.iter().position(|part| {
+                let is_apart = part.reach[0] > end;
+                end = end.max(part.reach[1]);
+                is_apart
+            });
+            let (group, next) = rest.split_at(apart.map_or(rest.len(), |others| others + 1));
+            let mut bands = Bands {
+                heights,
+                ordered,
+                rule,
+                around,
+            };
+            bands.add(group, [top, bottom], row);
+            // Contours that enter a group leave it above or below: it winds alike at all heights.
+            around += group.iter().filter(|part| part.y[0] == top && part.y[1] > top).map(|part| part.edge.winding).sum::<i32>();
+            rest = next;
         }
-        self.find_bands([top, bottom]);
-        for i in 1..self.heights.len() {
-            let band = [self.heights[i - 1], self.heights[i]];
-            let middle = i64::midpoint(band[0], band[1]);
-            self.ordered.clear();
-            for (number, part) in self.parts.iter().enumerate() {
-                if part.y[0] <= middle && middle < part.y[1] {
-                    let place = band.map(|y| part.edge.x_at(y));
-                    self.ordered.push((place[0] + place[1], number));
-                }
-            }
-            self.ordered.sort_unstable();
-            let edges = self.ordered.iter().map(|(_, number)| &self.parts[*number].edge);
-            add_band(&mut self.row, edges, band, rule);
+    }
+}
+
+impl Part {
+    fn new(edge: AreaEdge, [top, bottom]: [i64; 2]) -> Self {
+        let y = [edge.top[1].max(top), edge.bottom[1].min(bottom)];
+        let x = if edge.top[1] == edge.bottom[1] {
+            [edge.top[0], edge.bottom[0]]
+        } else {
+            y.map(|y| edge.x_at(y))
+        };
+        Self {
+            reach: ordered(x[0], x[1]),
+            edge,
+            y,
+            x,
         }
     }
 
-    /// Finds the heights at which the edges of a row end or cross.
-    fn find_bands(&mut self, [top, bottom]: [i64; 2]) {
-        let Self { parts, heights, .. } = self;
+    /// By the left end; beyond that by what makes any two the same that are interchangeable.
+    fn order(&self) -> ([i64; 2], [i64; 2], [i64; 2], i32) {
+        (self.reach, self.edge.top, self.edge.bottom, self.edge.winding)
+    }
+}
+
+impl Bands<'_> {
+    /// Adds a group of edges, of which none is apart from the others, to a row from `top` to `bottom`.
+    fn add(&mut self, parts: &[Part], [top, bottom]: [i64; 2], row: &mut AreaRow) {
+        let is_through = |part: &Part| part.y == [top, bottom];
+        let keeps_order = |pair: &[Part]| pair[0].x[0] <= pair[1].x[0] && pair[0].x[1] <= pair[1].x[1];
+        if parts.iter().all(is_through) && parts.windows(2).all(keeps_order) {
+            return self.add_band(parts.iter().map(|part| &part.edge), [top, bottom], row);
+        }
+        self.find(parts, [top, bottom]);
+        for i in 1..self.heights.len() {
+            let band = [self.heights[i - 1], self.heights[i]];
+            let middle = i64::midpoint(band[0], band[1]);
+            let mut ordered = std::mem::take(self.ordered);
+            ordered.clear();
+            for (number, part) in parts.iter().enumerate() {
+                if part.y[0] <= middle && middle < part.y[1] {
+                    let [above, below] = band.map(|y| part.edge.x_at(y));
+                    ordered.push((above + below, number));
+                }
+            }
+            ordered.sort_unstable();
+            self.add_band(ordered.iter().map(|(_, number)| &parts[*number].edge), band, row);
+            *self.ordered = ordered;
+        }
+    }
+
+    /// Finds the heights at which edges end or cross.
+    fn find(&mut self, parts: &[Part], [top, bottom]: [i64; 2]) {
+        let heights = &mut *self.heights;
         heights.clear();
         heights.extend([top, bottom]);
         heights.extend(parts.iter().flat_map(|part| part.y));
@@ -135,12 +194,24 @@ impl OutlineAreas {
             heights.extend((0..=EQUAL_BANDS).map(|band| top + (bottom - top) * band / EQUAL_BANDS));
         }
     }
+
+    /// Adds those of a band's edges, from left to right, at which the shape begins or ends.
+    fn add_band<'e>(&self, edges: impl Iterator<Item = &'e AreaEdge>, band: [i64; 2], row: &mut AreaRow) {
+        let (mut winding, mut is_inside) = (self.around, self.rule.encloses(self.around));
+        for edge in edges {
+            winding += edge.winding;
+            if self.rule.encloses(winding) != is_inside {
+                row.add(edge, band, if is_inside { -1 } else { 1 });
+                is_inside = !is_inside;
+            }
+        }
+    }
 }
 
 /// The height at which two edges cross, if they do inside the row.
 fn crossing(a: &Part, b: &Part) -> Option<i64> {
     let y = [a.y[0].max(b.y[0]), a.y[1].min(b.y[1])];
-    if y[0] >= y[1] || a.x[0].max(a.x[1]) < b.x[0].min(b.x[1]) {
+    if y[0] >= y[1] || a.reach[1] < b.reach[0] {
         return None;
     }
     let [above, below] = y.map(|y| a.edge.x_at(y) - b.edge.x_at(y));
@@ -149,16 +220,4 @@ fn crossing(a: &Part, b: &Part) -> Option<i64> {
     }
     let part = above as f64 / (above - below) as f64;
     Some(y[0] + rounded((y[1] - y[0]) as f64 * part)).filter(|at| y[0] < *at && *at < y[1])
-}
-
-/// Adds those of a band's edges, from left to right, at which the shape begins or ends.
-fn add_band<'e>(row: &mut AreaRow, edges: impl Iterator<Item = &'e AreaEdge>, band: [i64; 2], rule: FillRule) {
-    let (mut winding, mut is_inside) = (0, false);
-    for edge in edges {
-        winding += edge.winding;
-        if rule.encloses(winding) != is_inside {
-            row.add(edge, band, if is_inside { -1 } else { 1 });
-            is_inside = !is_inside;
-        }
-    }
 }

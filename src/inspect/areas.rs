@@ -1,0 +1,101 @@
+//! Pixels that have areas and no samples: what shows in them, and where neighbours let the background through.
+
+use super::model::{Conflation, Explanation, Paint};
+use super::numbers::percent;
+use crate::render::Explainer;
+
+/// Parts of a pixel that are too small to be told from none.
+const NOTHING: f64 = 0.002;
+/// A colour of less alpha than this, in levels, lets what is below shine through.
+const OPAQUE: f64 = 254.99;
+/// Neighbours in one pixel that are compared with each other at most.
+const MOST_NEIGHBOURS: usize = 8;
+
+/// The primitives that cover a pixel together, each a part of it that no other covers.
+pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<Conflation> {
+    let mut parts: Vec<usize> = Vec::new();
+    for (number, paint) in paints.iter().enumerate() {
+        match paint.covered {
+            Some(covered) if covered > 1.0 - NOTHING && paint.alpha() >= OPAQUE => parts.clear(),
+            Some(covered) if covered > NOTHING && covered < 1.0 - NOTHING && !paint.in_mask => parts.push(number),
+            // What lies on different layers meets nobody.
+            None if paint.shape.is_layer_mark() => parts.clear(),
+            _ => {}
+        }
+    }
+    let part = |number: &usize| paints[*number].covered.unwrap_or(0.0);
+    let all: f64 = parts.iter().map(part).sum();
+    if !(2..=MOST_NEIGHBOURS).contains(&parts.len()) || (all - 1.0).abs() > NOTHING {
+        return None;
+    }
+    let pairs = parts.iter().enumerate().flat_map(|(i, a)| parts[..i].iter().map(move |b| [*a, *b]));
+    let are_apart = |pair: [usize; 2]| {
+        let overlap = explainer.overlap(pair.map(|number| paints[number].primitive));
+        overlap.is_some_and(|overlap| overlap < NOTHING)
+    };
+    if !{ pairs }.all(are_apart) {
+        return None;
+    }
+    let through = parts.iter().map(|number| 1.0 - part(number) * paints[*number].alpha() / 255.0);
+    Some(Conflation {
+        through: through.product(),
+        paints: parts,
+    })
+}
+
+impl Explanation {
+    /// What shows, by how much of it, where a pixel holds one colour: in one sentence.
+    pub(super) fn area_words(&self) -> String {
+        if self.paints.iter().any(|paint| paint.shape.is_layer_mark()) {
+            return "It holds one colour, made of all that paints it; nothing tells which part shows what.".to_owned();
+        }
+        let mut rest = 1.0;
+        let mut shares = Vec::new();
+        for (number, paint) in self.paints.iter().enumerate().rev() {
+            let share = rest * paint.covered.unwrap_or(1.0) * paint.alpha() / 255.0;
+            rest -= share;
+            if share >= NOTHING {
+                shares.push(format!("{} of {} ({})", percent(share), number + 1, paint.name()));
+            }
+        }
+        if rest >= NOTHING || shares.is_empty() {
+            shares.push(format!("{} of the background", percent(rest)));
+        }
+        format!("It holds one colour: {}.", shares.join(", "))
+    }
+
+    /// Why the background shows between neighbours that cover the pixel together.
+    pub(super) fn conflation_words(&self) -> Option<String> {
+        let Conflation { paints, through } = self.conflation.as_ref()?;
+        let known = || paints.iter().filter_map(|number| Some((number, self.paints.get(*number)?)));
+        let names: Vec<String> = known()
+            .map(|(number, paint)| format!("{} ({})", number + 1, paint.name()))
+            .collect();
+        let part = |paint: &Paint| paint.covered.unwrap_or(0.0) * paint.alpha() / 255.0;
+        let factors: Vec<String> = known().map(|(_, paint)| format!("(1 - {:.3})", part(paint))).collect();
+        Some(format!(
+            "{} cover all of this pixel together, without overlap, and yet {} = {} of what is below shows through: a seam. Source-over \
+             takes each area as if it lay anywhere in the pixel (conflation). Samples know who covers them: supersampling has no \
+             such seam.",
+            names.join(" and "),
+            factors.join(" x "),
+            percent(*through),
+        ))
+    }
+
+    /// The heading of [`Explanation::resolve_lines`].
+    pub fn resolve_title(&self) -> &'static str {
+        if self.exact {
+            "How areas became the colour"
+        } else {
+            "How samples became the colour"
+        }
+    }
+}
+
+impl Paint {
+    /// The alpha of its colour, in levels.
+    fn alpha(&self) -> f64 {
+        self.fragments.first().map_or(0.0, |fragment| fragment.color[3])
+    }
+}

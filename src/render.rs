@@ -19,8 +19,8 @@ use crate::geometry::ViewTransform;
 use crate::post::{self, PostProcess};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
-    PaintSources, PixelCoverage, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
-    ShadingRate, SizedFilter,
+    PaintSources, PixelCoverage, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate,
+    Seed, ShadingRate, SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};

@@ -28,7 +28,10 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
     if !(2..=MOST_NEIGHBOURS).contains(&parts.len()) || (all - 1.0).abs() > NOTHING {
         return None;
     }
-    let pairs = parts.iter().enumerate().flat_map(|(i, a)| parts[..i].iter().map(move |b| [*a, *b]));
+    let pairs = parts
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| parts[..i].iter().map(move |b| [*a, *b]));
     let are_apart = |pair: [usize; 2]| {
         let overlap = explainer.overlap(pair.map(|number| paints[number].primitive));
         overlap.is_some_and(|overlap| overlap < NOTHING)
@@ -36,7 +39,9 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
     if !{ pairs }.all(are_apart) {
         return None;
     }
-    let through = parts.iter().map(|number| 1.0 - part(number) * paints[*number].alpha() / 255.0);
+    let through = parts
+        .iter()
+        .map(|number| 1.0 - part(number) * paints[*number].alpha() / 255.0);
     Some(Conflation {
         through: through.product(),
         paints: parts,
@@ -67,7 +72,11 @@ impl Explanation {
     /// Why the background shows between neighbours that cover the pixel together.
     pub(super) fn conflation_words(&self) -> Option<String> {
         let Conflation { paints, through } = self.conflation.as_ref()?;
-        let known = || paints.iter().filter_map(|number| Some((number, self.paints.get(*number)?)));
+        let known = || {
+            paints
+                .iter()
+                .filter_map(|number| Some((number, self.paints.get(*number)?)))
+        };
         let names: Vec<String> = known()
             .map(|(number, paint)| format!("{} ({})", number + 1, paint.name()))
             .collect();

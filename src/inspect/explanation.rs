@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-use super::{areas, depth};
 use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
 use super::numbers::{hex, one_line};
 use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
 use super::smoothing::smoothing;
 use super::triangle_views::{edges, interpolated, triangle_view};
+use super::{areas, depth};
 use crate::color::BlendMode;
 use crate::geometry::{FillRule, Polygon};
 use crate::raster::{
@@ -53,7 +53,11 @@ impl Explanation {
         let mut replay = render::replay(&subject, size, pixel)?;
         let explainer = Explainer::new(subject, size, pixel);
         // Where areas are covered, only what is smaller than the smallest area is missed.
-        let most = if subject.settings.covers_areas() { 0 } else { MOST_MISSED };
+        let most = if subject.settings.covers_areas() {
+            0
+        } else {
+            MOST_MISSED
+        };
         let mut missed = explainer.missed(&replay.painted, most);
         let quotes = subject.scene.quotes();
         depth::drop_idle_viewports(&mut replay, subject.scene);

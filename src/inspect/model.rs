@@ -181,6 +181,7 @@ impl Explanation {
     pub fn resolved(&self) -> [u8; 4] {
         self.smoothing.as_ref().map_or(self.color, |smoothing| smoothing.before)
     }
+}
 
 impl Resolve {
     /// [`Resolve::space`] as a setting.

@@ -97,7 +97,14 @@ impl Explanation {
             topics.push(topic(self.paint_title(paint), lines));
         }
         if self.paints.is_empty() {
-            let nothing = vec![if self.exact { "it shows the background" } else { "every sample shows the background" }.to_owned()];
+            let nothing = vec![
+                if self.exact {
+                    "it shows the background"
+                } else {
+                    "every sample shows the background"
+                }
+                .to_owned(),
+            ];
             topics.push(topic("Nothing paints this pixel".to_owned(), nothing));
         }
         let help = self.help_lines();

@@ -247,9 +247,7 @@ impl Explanation {
                     self.kept(found)
                 )
             }
-            Shape::Triangle { .. } | Shape::Polygon { .. } if self.exact => {
-                self.area_line(paint, found)
-            }
+            Shape::Triangle { .. } | Shape::Polygon { .. } if self.exact => self.area_line(paint, found),
             Shape::WholePixel | Shape::CanvasOutline => {
                 "one pixel wide at every zoom: paints whole pixels, whatever the samples".to_owned()
             }
@@ -287,14 +285,21 @@ impl Explanation {
 
     /// What a paint does to a pixel that has areas and no samples.
     fn area_line(&self, paint: usize, found: &Paint) -> String {
-        let part = if found.in_mask { "; part of a clip path or mask" } else { "" };
+        let part = if found.in_mask {
+            "; part of a clip path or mask"
+        } else {
+            ""
+        };
         let lost = match self.unseen(paint, 0) {
             None => "",
             Some(Unseen::TakenBy(_)) => "; it is taken away again",
             Some(Unseen::Transparent) => "; it is transparent",
             Some(Unseen::Hidden) => "; it is hidden",
         };
-        format!("paints {} of the pixel{part}{lost}", percent(found.covered.unwrap_or(0.0)))
+        format!(
+            "paints {} of the pixel{part}{lost}",
+            percent(found.covered.unwrap_or(0.0))
+        )
     }
 
     /// Which samples a clip path or mask leaves something of, in words.

@@ -110,7 +110,7 @@ mod tests {
     use crate::raster::list::context::ListContext;
     use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::tile_layout::TileLayout;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{PixelCoverage, RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
     use crate::texture::{LevelSampling, PixelSampling, SamplingSettings};
 
@@ -133,7 +133,7 @@ mod tests {
                 pattern,
                 seed: crate::raster::Seed::default(),
                 shading: crate::raster::ShadingRate::default(),
-                coverage: crate::raster::PixelCoverage::default(),
+                coverage: *u.choose(&[PixelCoverage::Sampled, PixelCoverage::Sampled, PixelCoverage::Exact])?,
                 sampling: SamplingSettings { rules, ..sampling },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
@@ -156,11 +156,11 @@ mod tests {
                 assert!(surface == frame.pixels() && kept == frame, "the same on a surface");
                 Ok(frame)
             };
-            let expected = draw(TileLayout::for_rate(pattern.nearest(rate), SIZE))?;
+            let expected = draw(TileLayout::for_rate(settings.sampled().0, SIZE))?;
             for sides in [[0, 0], [3, 3], [2, 4], [5, 1], [6, 7]] {
                 assert!(
                     draw(TileLayout::new(sides, SIZE))? == expected,
-                    "tiles of 2^{sides:?} pixels, {pattern:?} {rate:?}"
+                    "tiles of 2^{sides:?} pixels, {settings:?}"
                 );
             }
             Ok(())

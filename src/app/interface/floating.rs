@@ -85,10 +85,12 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
         other => format!(", {}", other.name()),
     };
     let mut lines = vec![
-        format!(
-            "{count} {} per pixel{pattern}",
-            if count == 1 { "sample" } else { "samples" }
-        ),
+        if render.covers_areas() {
+            "exact areas, one colour per pixel".to_owned()
+        } else {
+            let samples = if count == 1 { "sample" } else { "samples" };
+            format!("{count} {samples} per pixel{pattern}")
+        },
         format!(
             "pixel {}, level {}",
             render.pixel_sampling.name(),

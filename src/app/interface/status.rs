@@ -163,7 +163,10 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
     if let Some(numbers) = viewer.both().view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }
-    words.push(format!("{}×", render.sample_rate.samples()));
+    // Areas have no samples.
+    if !render.covers_areas() {
+        words.push(format!("{}×", render.sample_rate.samples()));
+    }
     words.extend(changed_words(viewer.settings(), About::Samples));
     words.push(format!(
         "{} / {}",

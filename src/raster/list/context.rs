@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::sampling::pattern::{SamplePattern, Seed};
-use crate::raster::sampling::positions::lattice;
 use crate::raster::sampling::pixel_coverage::PixelCoverage;
+use crate::raster::sampling::positions::lattice;
 use crate::raster::sampling::rate::SampleRate;
 use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::raster::settings::RasterSettings;
@@ -39,11 +39,7 @@ pub struct ListContext {
 impl ListContext {
     /// For a frame of `size` pixels.
     pub fn new(size: [u32; 2], settings: &RasterSettings) -> Self {
-        Self::with_tiles(
-            size,
-            settings,
-            TileLayout::for_rate(settings.sampled().0, size),
-        )
+        Self::with_tiles(size, settings, TileLayout::for_rate(settings.sampled().0, size))
     }
 
     pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {

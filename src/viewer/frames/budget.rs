@@ -115,7 +115,9 @@ impl FrameBudget {
     /// The finest step of the ladder that fits the budget; where none does, the finest that costs little more than the
     /// quickest.
     pub(in crate::viewer) fn step(&self, picture: &Picture) -> PreviewQuality {
-        let is_as_quick = picture.settings.sample_rate == SampleRate::ONE && picture.settings.filter().is_plain();
+        let is_as_quick = picture.settings.sample_rate == SampleRate::ONE
+            && picture.settings.filter().is_plain()
+            && !picture.settings.covers_areas();
         let first = usize::from(is_as_quick);
         let ladder = &STEPS[first..];
         let cost = |quality| {

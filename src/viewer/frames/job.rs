@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
-use crate::raster::{Framebuffer, Region, ResolveFilter, SampleRate};
+use crate::raster::{Framebuffer, PixelCoverage, Region, ResolveFilter, SampleRate};
 use crate::render::{
     CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_onto, draw_regions, refine,
 };
@@ -169,6 +169,7 @@ impl Job {
     fn at_rate_one(&self) -> RenderSettings {
         RenderSettings {
             sample_rate: SampleRate::ONE,
+            coverage: PixelCoverage::Sampled,
             resolve_filter: ResolveFilter::Box,
             filter_radius: None,
             ..self.picture.settings

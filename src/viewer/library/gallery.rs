@@ -99,6 +99,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/27_beyond_the_border.svg",
     "study/28_guessed_edges.svg",
     "study/29_what_guesses_miss.svg",
+    "study/30_exact_greys.svg",
+    "study/31_seams_of_a_mesh.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

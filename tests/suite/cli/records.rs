@@ -38,10 +38,10 @@ fn record(path: &Path) -> Record {
 }
 
 #[rustfmt::skip]
-const RENDER: [&str; 20] = [
+const RENDER: [&str; 22] = [
     "render", "a.svg", "-o", "out/a.png", "--size", "90x70", "--view=20,15,2.5,30", "--sample-rate", "9",
-    "--shading-rate", "centroid", "--pixel-sampling", "mitchell", "--texture-wrap", "repeat", "--post-process",
-    "smaa", "--background", "#ff8000", "--threads=1",
+    "--shading-rate", "centroid", "--coverage", "exact", "--pixel-sampling", "mitchell", "--texture-wrap", "repeat",
+    "--post-process", "smaa", "--background", "#ff8000", "--threads=1",
 ];
 
 #[test]
@@ -51,7 +51,8 @@ fn record_tells_scene_textures_and_settings() {
     let told = record(&work.path().join("out/a.png"));
     assert_eq!(told.version, 1, "the shape");
     let line = "rasterscope render a.svg -o out/a.png --size 90x70 --view=20,15,2.5,30 --sample-rate 9 \
-                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --post-process smaa --background '#ff8000'";
+                --shading-rate centroid --coverage exact --pixel-sampling mitchell --texture-wrap repeat --post-process smaa \
+                --background '#ff8000'";
     assert_eq!(told.command_line, line, "threads make no difference");
     let scene = told.scene.unwrap();
     let digest = |name: &str| FileDigest::of(&fs::read(work.path().join(name)).unwrap()).to_string();

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod deep_zooms;
+mod exact_coverage;
 mod float_rules;
 mod golden;
 mod instruction_guard;

@@ -24,7 +24,7 @@ fn root() -> &'static Path {
 }
 
 /// Study scenes that the generator does not make.
-const BY_HAND: [&str; 7] = [
+const BY_HAND: [&str; 9] = [
     "study/18_text_at_8_px.svg",
     "study/19_banding.svg",
     "study/20_conflation.svg",
@@ -32,6 +32,8 @@ const BY_HAND: [&str; 7] = [
     "study/22_what_filters_cost.svg",
     "study/28_guessed_edges.svg",
     "study/29_what_guesses_miss.svg",
+    "study/30_exact_greys.svg",
+    "study/31_seams_of_a_mesh.svg",
 ];
 
 /// The files below a folder, relative to it, with `/`.

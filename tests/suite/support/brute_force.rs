@@ -13,7 +13,7 @@ use rasterscope::color::BlendMode;
 use rasterscope::color::Spread;
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, View, ViewTransform};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, ShadingRate};
+use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
@@ -21,7 +21,7 @@ use rasterscope::texture::{
     Derivatives, FixedLevel, FootprintExtent, LevelSampling, MipLevel, PixelSampling, Texture, Wrap,
 };
 
-use crate::support::resolve_filters;
+use crate::support::{areas, resolve_filters};
 
 /// Premultiplied, `0.0..=1.0`.
 pub(crate) type Color = [f64; 4];
@@ -65,6 +65,7 @@ enum Step<'a> {
 
 /// Draws a scene under the standard rules or those of first drafts. Coordinates must stay small.
 pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
+    let settings = &of_areas(*settings);
     let (side, bits) = lattice(settings);
     let units = f64::from(side << bits);
     let steps: Vec<Step<'_>> = scene
@@ -134,6 +135,19 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
         }
     }
     frame
+}
+
+/// Where areas are covered, a pixel is one sample in its middle.
+fn of_areas(settings: RenderSettings) -> RenderSettings {
+    match settings.coverage {
+        PixelCoverage::Sampled => settings,
+        PixelCoverage::Exact => RenderSettings {
+            sample_rate: SampleRate::ONE,
+            pattern: SamplePattern::Grid,
+            shading: ShadingRate::Sample,
+            ..settings
+        },
+    }
 }
 
 /// A premultiplied colour whose straight channels, but for alpha, go through a curve.
@@ -358,6 +372,23 @@ fn sample_color(
                 let [x, y] = pixel.at;
                 pixels.contains(&(x, y)).then(|| premultiply(*color))
             }
+            Step::Outline(Outline { edges, rule, fill }) if settings.coverage == PixelCoverage::Exact => {
+                let middle = [0, 1].map(|axis| pixel.at[axis] as f64 + 0.5);
+                let above = filled(*fill, scene, view.to_scene(DVec2::from_array(middle)));
+                let below = layers.last_mut().expect("the base");
+                *below = covered(*below, above, areas::in_pixel(edges, *rule, pixel.at), settings.resolve);
+                continue;
+            }
+            Step::Triangle(triangle) if settings.coverage == PixelCoverage::Exact => {
+                let [a, b, c] = triangle.corners;
+                let area = areas::in_pixel(&[[a, b], [b, c], [c, a]], FillRule::NonZero, pixel.at);
+                if area > 0.0 {
+                    let above = triangle.color(scene, settings, sample, pixel);
+                    let below = layers.last_mut().expect("the base");
+                    *below = covered(*below, above, area, settings.resolve);
+                }
+                continue;
+            }
             Step::Outline(outline) => outline.encloses(sample).then(|| {
                 let (x, y) = pixel.shaded_at(settings.shading, sample, |sample| outline.encloses(sample));
                 let at = DVec2::new(x as f64, y as f64) / f64::from(pixel.side << pixel.bits);
@@ -373,6 +404,19 @@ fn sample_color(
         }
     }
     layers[0]
+}
+
+/// What a pixel shows of which a part is painted over.
+fn covered(below: Color, above: Color, area: f64, space: ResolveSpace) -> Color {
+    let over: Color = std::array::from_fn(|k| above[k] + below[k] * (1.0 - above[3]));
+    let mean = |a: Color, b: Color| -> Color { std::array::from_fn(|k| a[k] * (1.0 - area) + b[k] * area) };
+    match space {
+        ResolveSpace::Stored => mean(below, over),
+        ResolveSpace::Linear => {
+            let [below, over] = [below, over].map(|color| each_straight(color, to_light));
+            each_straight(mean(below, over), to_stored)
+        }
+    }
 }
 
 /// What a layer leaves of what is below it.

@@ -100,10 +100,15 @@ impl OutlineAreas {
     fn sum_up(&mut self, top: i64, rule: FillRule) {
         let bottom = top + PIXEL;
         self.parts.clear();
-        self.parts.extend(self.active.iter().map(|(_, edge)| Part::new(*edge, [top, bottom])));
+        self.parts
+            .extend(self.active.iter().map(|(_, edge)| Part::new(*edge, [top, bottom])));
         self.parts.sort_unstable_by_key(Part::order);
         let Self {
-            parts, ordered, heights, row, ..
+            parts,
+            ordered,
+            heights,
+            row,
+            ..
         } = self;
         let (mut rest, mut around) = (parts.as_slice(), 0);
         while let Some((first, others)) = rest.split_first() {
@@ -122,7 +127,11 @@ impl OutlineAreas {
             };
             bands.add(group, [top, bottom], row);
             // Contours that enter a group leave it above or below: it winds alike at all heights.
-            around += group.iter().filter(|part| part.y[0] == top && part.y[1] > top).map(|part| part.edge.winding).sum::<i32>();
+            around += group
+                .iter()
+                .filter(|part| part.y[0] == top && part.y[1] > top)
+                .map(|part| part.edge.winding)
+                .sum::<i32>();
             rest = next;
         }
     }

@@ -121,7 +121,13 @@ impl AreaRow {
         } else {
             ((from[0] - 1) >> BITS, -1)
         };
-        let is_left = |side: i64| if is_rightwards { side << BITS < to[0] } else { side << BITS > to[0] };
+        let is_left = |side: i64| {
+            if is_rightwards {
+                side << BITS < to[0]
+            } else {
+                side << BITS > to[0]
+            }
+        };
         while is_left(side) {
             let x = side << BITS;
             let next = [x, edge.y_at(x).clamp(from[1], bottom)];

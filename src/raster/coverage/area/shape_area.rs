@@ -60,7 +60,11 @@ impl ShapeArea {
         let edges = [[0, 1], [1, 2], [2, 0]].map(|ends| {
             let [from, to] = ends.map(|end| corners[end]);
             // Clockwise on the screen a left edge runs up.
-            let (ends, winding) = if from.y < to.y { ([from, to], -1) } else { ([to, from], 1) };
+            let (ends, winding) = if from.y < to.y {
+                ([from, to], -1)
+            } else {
+                ([to, from], 1)
+            };
             (AreaEdge::new(self.grid, ends, winding), way * i64::from(winding))
         });
         let pixels = SpanRect::of_touched(corners, self.grid).intersection(rect);
@@ -165,14 +169,20 @@ mod tests {
             for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
                 let expected = area_in_pixel(corners, [x, y].map(i32::cast_unsigned));
                 let found = found[to_index(y * SIZE[0] + x)];
-                assert!((found - expected).abs() < 2e-5, "{corners:?} in {x}, {y}: {found}, not {expected}");
+                assert!(
+                    (found - expected).abs() < 2e-5,
+                    "{corners:?} in {x}, {y}: {found}, not {expected}"
+                );
             }
             let part = SpanRect {
                 x: Span { start: 3, end: 5 },
                 y: Span { start: 2, end: 4 },
             };
             for (i, alone) in areas(Shape::Triangle(&snapped), part).into_iter().enumerate() {
-                assert!(alone <= 0.0 || (alone - found[i]).abs() <= 0.0, "the same in a smaller tile");
+                assert!(
+                    alone <= 0.0 || (alone - found[i]).abs() <= 0.0,
+                    "the same in a smaller tile"
+                );
             }
             Ok(())
         })

@@ -1,0 +1,291 @@
+//! Exact areas of pixels: what they show better than samples, what they get wrong, and what is said of it.
+
+use std::time::{Duration, Instant};
+
+use rasterscope::color::{ResolveSpace, Rgba};
+use rasterscope::geometry::View;
+use rasterscope::inspect::{Explanation, Question};
+use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern, ShadingRate};
+use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+
+use crate::support::explaining::advised;
+use crate::support::scenes::{at_rate, drawn};
+
+const SIZE: [u32; 2] = [512, 384];
+
+fn gallery(name: &str) -> Scene {
+    let found = SCENES.iter().find(|scene| scene.name == name);
+    document(found.expect("a scene of the gallery").document)
+}
+
+fn document(text: &str) -> Scene {
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    read(text.as_bytes(), "scene.svg", options, &Textures).expect("a good document")
+}
+
+fn svg(inner: &str) -> Scene {
+    document(&format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8" viewBox="0 0 8 8">{inner}</svg>"#
+    ))
+}
+
+fn exact() -> RenderSettings {
+    RenderSettings {
+        coverage: PixelCoverage::Exact,
+        outline: false,
+        ..at_rate(1)
+    }
+}
+
+fn sampled(samples: u32) -> RenderSettings {
+    RenderSettings {
+        outline: false,
+        ..at_rate(samples)
+    }
+}
+
+fn picture(scene: &Scene, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
+    drawn(scene, &View::Canvas.transform(scene.canvas, size), settings, size)
+}
+
+fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
+    let bytes = |frame: &Framebuffer| {
+        frame
+            .pixels()
+            .iter()
+            .flat_map(|pixel| pixel.to_be_bytes())
+            .collect::<Vec<_>>()
+    };
+    let (a, b) = (bytes(a), bytes(b));
+    let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
+    (sum / a.len() as f64).sqrt()
+}
+
+#[test]
+fn study_scenes_show_where_areas_win_and_where_they_lose() {
+    for (name, wins) in [
+        ("study/30_exact_greys.svg", true),
+        ("study/31_seams_of_a_mesh.svg", false),
+    ] {
+        let scene = gallery(name);
+        let truth = picture(&scene, &sampled(256), SIZE);
+        let error = |settings: &RenderSettings| rmse(&picture(&scene, settings, SIZE), &truth);
+        let [areas, four, sixteen] = [exact(), sampled(4), sampled(16)].map(|settings| error(&settings));
+        if wins {
+            assert!(2.0 * areas < sixteen, "{name}: {areas} and {sixteen} with 16 samples");
+        } else {
+            assert!(
+                areas > 2.0 * sixteen,
+                "{name}: {areas}, {four} and {sixteen} with samples"
+            );
+        }
+    }
+}
+
+#[test]
+fn pixels_inside_shapes_are_those_of_one_sample() {
+    for name in ["basic/test4.svg", "illustration/03_night_city.svg"] {
+        let scene = gallery(name);
+        let [areas, one, many] = [exact(), sampled(1), sampled(64)].map(|settings| picture(&scene, &settings, SIZE));
+        let row = SIZE[0] as usize;
+        let mut inside = 0;
+        for i in row + 1..many.pixels().len() - row - 1 {
+            let around = [
+                i - row - 1,
+                i - row,
+                i - row + 1,
+                i - 1,
+                i + 1,
+                i + row - 1,
+                i + row,
+                i + row + 1,
+            ];
+            if around.iter().all(|other| many.pixels()[*other] == many.pixels()[i]) {
+                assert_eq!(
+                    areas.pixels()[i],
+                    one.pixels()[i],
+                    "{name}: pixel {}, {}",
+                    i % row,
+                    i / row
+                );
+                inside += 1;
+            }
+        }
+        assert!(inside > 10_000, "{name}: {inside} pixels");
+    }
+}
+
+#[test]
+fn samples_are_without_effect() {
+    let scene = gallery("study/31_seams_of_a_mesh.svg");
+    let plain = picture(&scene, &exact(), [64, 48]);
+    let other = RenderSettings {
+        pattern: SamplePattern::Sobol,
+        shading: ShadingRate::Centroid,
+        coverage: PixelCoverage::Exact,
+        ..sampled(16)
+    };
+    assert!(
+        picture(&scene, &other, [64, 48]) == plain,
+        "rate, pattern and shading rate"
+    );
+    assert!(picture(&scene, &sampled(16), [64, 48]) != plain, "coverage is not");
+}
+
+#[test]
+fn a_pixel_is_mixed_by_what_is_covered_of_it() {
+    // A quarter of a pixel by the fill rule in force, and a third of what is below it there.
+    let shape = |rule: &str| {
+        svg(&format!(
+            r#"<path fill-rule="{rule}" d="M2 2h2v2h-2zM3.5 3h.25v1h-.25zM3.5 3h.25v1h-.25z"/><path d="M5 5h.5v.5h-.5z" fill-opacity=".5"/>"#
+        ))
+    };
+    let gray = |scene: &Scene, settings: &RenderSettings, [x, y]: [usize; 2]| {
+        picture(scene, settings, [8, 8]).pixels()[8 * y + x] & 0xFF
+    };
+    let linear = RenderSettings {
+        resolve: ResolveSpace::Linear,
+        ..exact()
+    };
+    for (rule, settings, at, expected) in [
+        ("nonzero", exact(), [3, 3], 0),
+        ("evenodd", exact(), [3, 3], 0),
+        ("nonzero", exact(), [5, 5], 255 - 32),
+        // Half of a stored 255 is what covers a quarter of the light.
+        ("nonzero", linear, [5, 5], 231),
+    ] {
+        let found = gray(&shape(rule), &settings, at);
+        assert!(
+            found.abs_diff(expected) <= 1,
+            "{rule} at {at:?}: {found}, not {expected}"
+        );
+    }
+    let hole = svg(r#"<path fill-rule="evenodd" d="M2 2h2v2h-2zM3.5 3h.25v1h-.25z"/>"#);
+    assert_eq!(gray(&hole, &exact(), [3, 3]), 64, "a hole of a quarter");
+}
+
+#[test]
+fn explanations_end_in_the_frames_bytes() {
+    let names = [
+        "basic/test5.svg",
+        "texmap/test3.svg",
+        "vector/06_clips_and_masks.svg",
+        "study/20_conflation.svg",
+    ];
+    let translucent = RenderSettings {
+        background: Rgba::TRANSPARENT,
+        resolve: ResolveSpace::Linear,
+        ..exact()
+    };
+    let size = [17, 13];
+    let mut composited = 0;
+    for (name, settings) in names.iter().flat_map(|name| [(name, exact()), (name, translucent)]) {
+        let scene = gallery(name);
+        let view = View::Default.transform(scene.canvas, size);
+        let frame = drawn(&scene, &view, &settings, size);
+        let subject = Subject {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+        };
+        for (i, pixel) in (0..).zip(frame.pixels()) {
+            let pixel_at = [i % size[0], i / size[0]];
+            let question = Question {
+                subject,
+                file: "scene.svg",
+                size,
+                pixel: pixel_at,
+            };
+            let found = Explanation::new(&question).expect("in the frame");
+            let [a, r, g, b] = pixel.to_be_bytes();
+            assert_eq!(found.color, [r, g, b, a], "{name} at {pixel_at:?}");
+            assert!(
+                found.exact && found.samples.len() == 1 && found.missed.is_empty(),
+                "one colour"
+            );
+            let linear = settings.resolve == ResolveSpace::Linear;
+            for paint in found.paints.iter().filter(|paint| paint.covered.is_some() && !linear) {
+                let (fragment, covered) = (&paint.fragments[0], paint.covered.expect("an area"));
+                let alpha = fragment.color[3] / 255.0 * covered;
+                for k in 0..4 {
+                    let expected = fragment.color[k] * covered + fragment.before[k] * (1.0 - alpha);
+                    assert!((expected - fragment.after[k]).abs() < 0.02, "{name}: {paint:?}");
+                }
+                composited += 1;
+            }
+        }
+    }
+    assert!(composited > 300, "{composited} primitives");
+}
+
+#[test]
+fn a_seam_is_called_one_and_advice_knows_better() {
+    let red = r##"<rect width="8" height="8" fill="#FF0000"/>"##;
+    let neighbours = r##"<path d="M0 0H3.5V8H0z" fill="#0000FF"/><path d="M3.5 0H8V8H3.5z" fill="#0000FF"/>"##;
+    let scene = svg(&format!("{red}{neighbours}"));
+    assert_eq!(
+        picture(&scene, &exact(), [8, 8]).pixels()[8 * 4 + 3],
+        0xFF40_00BF,
+        "a quarter is red"
+    );
+    assert_eq!(
+        picture(&scene, &sampled(4), [8, 8]).pixels()[8 * 4 + 3],
+        0xFF00_00FF,
+        "samples have owners"
+    );
+    let seam = advised(&scene, &exact(), [8, 8], [3, 4]);
+    let conflation = seam.conflation.as_ref().expect("neighbours");
+    assert_eq!(conflation.paints, [1, 2], "both halves");
+    assert!((conflation.through - 0.25).abs() < 1e-4, "a quarter: {conflation:?}");
+    let text = seam.to_string();
+    for words in ["conflation", "supersampling has no", "Coverage by samples"] {
+        assert!(
+            text.replace("\n", " ").replace("      ", " ").contains(words),
+            "{words}: {text}"
+        );
+    }
+    let inside = advised(&scene, &exact(), [8, 8], [1, 4]);
+    assert!(inside.conflation.is_none(), "nobody meets there: {inside}");
+    // Two halves that lie on each other leave the other half as it is.
+    let twice = svg(&format!(r##"{red}<path d="M0 0H3.5V8H0z"/><path d="M0 0H3.5V8H0z"/>"##));
+    let found = advised(&twice, &exact(), [8, 8], [3, 4]);
+    assert!(found.conflation.is_none(), "no neighbours: {found}");
+}
+
+#[test]
+fn advice_is_exact_only_where_that_helps() {
+    // A hundredth of a pixel more than samples of the grid tell.
+    let scene = svg(r#"<path d="M0 0H3.49V8H0z"/>"#);
+    let found = advised(&scene, &sampled(16), [8, 8], [3, 4]);
+    let advises = |found: &Explanation| found.to_string().contains("Coverage by exact areas");
+    assert!(!advises(&found), "samples are right there: {found}");
+    let thin = svg(r#"<path d="M3.4 0h.2v8h-.2z"/>"#);
+    let found = advised(&thin, &sampled(16), [8, 8], [3, 4]);
+    assert!(advises(&found), "16 samples miss a fifth: {found}");
+}
+
+#[test]
+fn tangles_take_no_time() {
+    // Each edge crosses nearly all others in few rows of pixels.
+    let points: Vec<String> = (0..6000_u32)
+        .map(|i| {
+            format!(
+                "{},{}",
+                (i * 7919) % 5003,
+                3.0 + f64::from((i * 104_729) % 1009) / 1009.0
+            )
+        })
+        .collect();
+    let tangle = svg(&format!(
+        r#"<g transform="scale(.0015 1)"><polygon points="{}" fill-rule="evenodd"/></g>"#,
+        points.join(" ")
+    ));
+    let start = Instant::now();
+    let drawn = picture(&tangle, &exact(), [8, 8]);
+    assert!(drawn.pixels().iter().any(|pixel| *pixel != 0xFFFF_FFFF), "it is there");
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}

@@ -245,7 +245,7 @@ impl Choices {
             pattern: self.among(SamplePattern::ALL.as_slice()),
             pixel_sampling: self.among(&PixelSampling::ALL),
             texture_wrap: self.among(&Wrap::ALL),
-            level_sampling: self.among(&[LevelSampling::Zero, LevelSampling::Nearest, LevelSampling::Linear]),
+            level_sampling: self.among(&LevelSampling::ALL),
             anisotropy: Anisotropy::new(taps).expect("a number of taps"),
             rules: self.among(Rules::ALL.as_slice()),
             resolve: self.among(&[ResolveSpace::Stored, ResolveSpace::Linear]),

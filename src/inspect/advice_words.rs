@@ -307,11 +307,12 @@ fn levels(count: f64) -> String {
 impl Texture {
     /// Whether a sample reads a single place of the base level.
     fn reads_base_once(&self) -> bool {
-        self.taps == 1 && matches!(self.levels.as_slice(), [level] if level.number == 0)
+        self.taps == 1 && self.area.is_none() && matches!(self.levels.as_slice(), [level] if level.number == 0)
     }
 
     fn single_texels(&self) -> Option<String> {
-        let one = self.pixel_sampling == "nearest" && self.taps == 1 && self.levels.len() == 1;
+        let is_point = self.taps == 1 && self.area.is_none();
+        let one = self.pixel_sampling == "nearest" && is_point && self.levels.len() == 1;
         one.then(|| "A sample reads only the nearest texel.".to_owned())
     }
 
@@ -319,7 +320,7 @@ impl Texture {
         // Neither fixed nor biased: the level is that of the longer side.
         let follows = (self.clamped - self.major.log2()).abs() < 0.01;
         let [long, wide] = self.footprint();
-        let is_long = self.taps == 1 && self.clamped > 0.0 && long > BLURS * wide;
+        let is_long = self.taps == 1 && self.area.is_none() && self.clamped > 0.0 && long > BLURS * wide;
         (self.level_sampling != "zero" && follows && is_long).then(|| {
             let ratio = if wide > 0.0 {
                 number((long / wide).round())
@@ -368,6 +369,7 @@ mod tests {
                 "linear" => vec![level(3, 0.5), level(4, 0.5)],
                 _ => vec![level(0, 1.0)],
             },
+            area: None,
             pyramid: "stored",
             pyramid_filter: "box",
             opacity: 1.0,

@@ -156,7 +156,8 @@ fn reads(neighbourhood: &Neighbourhood<'_>, pixel: [u32; 2]) -> Reads {
 
 impl Reads {
     fn add(&mut self, texture: u32, found: &TextureReads, share: f64) {
-        self.work += found.taps.len();
+        // An area is one place, and as much work as its texels.
+        self.work += found.taps.len().max(found.texels.len() / 4);
         for texel in &found.texels {
             let place = TexelPlace {
                 texture,

@@ -57,11 +57,13 @@ impl Interpolated {
             Self::Texture {
                 uv: [u, v],
                 wrapped,
+                summed,
                 texels,
                 taps,
             } => {
                 let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
                 lines.extend(wrapped.as_ref().map(Wrapped::words));
+                lines.extend(summed.iter().flat_map(|summed| summed.lines()));
                 lines.extend(texture_lines(taps, texels));
                 lines
             }

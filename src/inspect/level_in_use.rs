@@ -2,6 +2,7 @@
 
 use glam::{DAffine2, DVec2};
 
+use super::area_use::AreaUse;
 use super::model::{Explanation, Interpolated, Level, Paint, Texture, View};
 use crate::scene::Scene;
 use crate::texture::MipLevel;
@@ -21,8 +22,11 @@ impl Texture {
     /// The texels of a level of this texture in the scene that it is of.
     pub fn texels<'s>(&self, scene: &'s Scene, level: &Level) -> Option<&'s MipLevel> {
         let texture = scene.textures.get(self.index as usize)?;
-        let pyramid = texture.pyramid_in(self.averaged_in(), self.filtered_by());
-        pyramid.levels().get(level.number)
+        let (space, filter) = (self.averaged_in(), self.filtered_by());
+        if matches!(self.area, Some(AreaUse::Ripmap { .. })) {
+            return texture.ripmap(space, filter).levels().get(level.number);
+        }
+        texture.pyramid_in(space, filter).levels().get(level.number)
     }
 
     /// The level that it is read most of.

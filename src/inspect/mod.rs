@@ -9,6 +9,7 @@ mod accumulation;
 mod advice;
 mod advice_words;
 mod areas;
+mod area_use;
 mod around_words;
 mod contributions;
 mod depth;
@@ -32,6 +33,7 @@ mod triangle_views;
 mod words;
 
 pub use accumulation::Convergence;
+pub use area_use::{AreaUse, SummedBox};
 pub use contributions::{ContributedPixel, Contributions, TexelPlace};
 pub use differences::Difference;
 pub use explanation::Question;

@@ -8,6 +8,7 @@
 use serde::Serialize;
 
 use super::smoothing::Smoothing;
+use super::area_use::{AreaUse, SummedBox};
 use crate::color::ResolveSpace;
 use crate::texture::Wrap;
 
@@ -439,6 +440,9 @@ pub enum Interpolated {
         /// Where that is in a texture that goes on beyond its border; `None` inside of it, and where it ends there.
         #[serde(skip_serializing_if = "Option::is_none")]
         wrapped: Option<Wrapped>,
+        /// The box whose mean is read, of a summed-area table; one of thousands of texels has none of them in `texels`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        summed: Option<Box<SummedBox>>,
         /// The points around which texels were read.
         taps: Vec<Tap>,
         /// The texels read there.
@@ -540,7 +544,7 @@ pub struct Texture {
     /// Whether the document asks for that (`image-rendering`), so that the setting has no effect.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub asked: bool,
-    /// How levels are chosen: `zero`, `nearest` or `linear`.
+    /// How levels are chosen: `zero`, `nearest` or `linear`; or by what an area is weighed: `ewa`, `summed-area` or `ripmap`.
     pub level_sampling: &'static str,
     /// The way in base texels of one step to the right; a pixel, or a sample.
     pub right: [f64; 2],
@@ -560,8 +564,11 @@ pub struct Texture {
     pub level_of_detail: Option<f64>,
     /// The same clamped to the levels that there are.
     pub clamped: f64,
-    /// The levels that are read.
+    /// The levels that are read; those of a ripmap have its numbers.
     pub levels: Vec<Level>,
+    /// What each sample weighs, where that is an area instead of texels around points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub area: Option<AreaUse>,
     /// In which values coarser levels were averaged: `stored` or `linear`.
     pub pyramid: &'static str,
     /// By which filter: `box`, `tent` or `kaiser`.

@@ -1,5 +1,6 @@
 //! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
 
+use super::area_use::AreaUse;
 use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, Verdict};
 use super::numbers::{number, percent, significant};
 use crate::color::{BlendMode, ResolveSpace};
@@ -362,10 +363,11 @@ impl Texture {
         if self.taps > 1 {
             lines.push(format!("anisotropy  {} taps along the longer side", self.taps));
         }
+        lines.extend(self.area.as_ref().map(AreaUse::words));
         let computed = self
             .level_of_detail
             .map_or("none (no change)".to_owned(), |lod| format!("{lod:.3}"));
-        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 {
+        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 || self.area.is_some() {
             String::new()
         } else {
             format!(" by {}", self.extent_words())

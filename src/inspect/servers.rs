@@ -2,11 +2,13 @@
 
 use glam::DVec2;
 
+use super::area_use::AreaUse;
 use super::explanation::Question;
 use super::model::{GradientUse, Level, PatternUse, Texture};
 use crate::raster::TextureUse;
 use crate::render::RenderSettings;
 use crate::scene::{Fill, PrimitiveKind};
+use crate::texture::{Area, LevelChoice, Reading, Texture as SceneTexture};
 
 impl Question<'_> {
     /// The pattern that fills a primitive.
@@ -64,18 +66,6 @@ impl Question<'_> {
         let texels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         let reading = &usage.reading;
         let (right, down) = (reading.footprint.dx * texels, reading.footprint.dy * texels);
-        let next = f64::from(reading.levels.next_weight);
-        let level = |number: usize, weight| {
-            levels.get(number).filter(|_| weight > 0.0).map(|level| Level {
-                number,
-                size: [level.width(), level.height()],
-                weight,
-            })
-        };
-        let read = [
-            level(reading.levels.level, 1.0 - next),
-            level(reading.levels.level + 1, next),
-        ];
         Texture {
             name: texture.name.clone(),
             index: usage.texture,
@@ -93,10 +83,46 @@ impl Question<'_> {
             taps: reading.taps.count,
             level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
             clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
-            levels: read.into_iter().flatten().collect(),
+            levels: levels_read(texture, reading),
+            area: reading
+                .area
+                .as_ref()
+                .map(|area| AreaUse::new(area, texture.ripmap_widths())),
             pyramid: pyramid.name(),
             pyramid_filter: pyramid_filter.name(),
             opacity: f64::from(usage.opacity),
         }
     }
+}
+
+/// The levels that a texture is read at: of its pyramid, or those that its ripmap mixes along both axes.
+fn levels_read(texture: &SceneTexture, reading: &Reading) -> Vec<Level> {
+    let both = |LevelChoice { level, next_weight }: LevelChoice| {
+        let next = f64::from(next_weight);
+        [(level, 1.0 - next), (level + 1, next)]
+            .into_iter()
+            .filter(|(_, part)| *part > 0.0)
+    };
+    if let Some(Area::Ripmap([along_u, along_v])) = reading.area {
+        let widths = texture.ripmap_widths();
+        let [width, height] = texture.tabled_size();
+        let all = both(along_v).flat_map(|(j, low)| both(along_u).map(move |(i, narrow)| (i, j, low * narrow)));
+        return all
+            .map(|(i, j, weight)| Level {
+                number: j * widths + i,
+                size: [(width >> i).max(1), (height >> j).max(1)],
+                weight,
+            })
+            .collect();
+    }
+    let levels = texture.pyramid.levels();
+    let found = both(reading.levels).filter_map(|(number, weight)| {
+        let level = levels.get(number)?;
+        Some(Level {
+            number,
+            size: [level.width(), level.height()],
+            weight,
+        })
+    });
+    found.collect()
 }

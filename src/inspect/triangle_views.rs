@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::area_use::SummedBox;
 use super::model::{Edge, Interpolated, RampStop, Tap, Texel, TileTexel, Verdict, View, Wrapped};
 use super::samples::straight;
 use crate::color::Rgba;
@@ -103,6 +104,7 @@ pub(super) fn interpolated(attributes: &Attributes) -> Interpolated {
         Attributes::Texture { uv, reads } => Interpolated::Texture {
             uv: *uv,
             wrapped: wrapped(*uv, reads.wrap),
+            summed: reads.summed.as_ref().map(|read| Box::new(SummedBox::new(read))),
             taps: reads
                 .taps
                 .iter()

@@ -67,33 +67,41 @@ impl<'a> Filter<'a> {
         let levels = pyramid.levels();
         let reading = Reading::new(&map.footprint(), pyramid, settings);
         let choice = reading.levels;
-        let pixel = settings.pixel;
         let mass = mass(choice.next_weight);
+        let numbered = |number: usize| NumberedLevel {
+            level: &levels[number],
+            number,
+        };
+        let read = match mass {
+            0 => (numbered(choice.level), None),
+            fixed_point::MASS => (numbered(choice.level + 1), None),
+            _ => (numbered(choice.level), Some((numbered(choice.level + 1), mass))),
+        };
+        Self::of_levels(map, settings, reading.taps, read)
+    }
+
+    /// Prepares reading a level, and where there is one a next coarser one of so much of [`fixed_point::MASS`].
+    pub(super) fn of_levels(
+        map: &UvMap,
+        settings: &SamplingSettings,
+        taps: Taps,
+        (finer, coarser): (NumberedLevel<'a>, Option<(NumberedLevel<'a>, i32)>),
+    ) -> Self {
+        let pixel = settings.pixel;
         let near = map.pivot.is_finite() && map.pivot.abs().max_element() < FARTHEST;
-        let prepare = |number: usize, mass| {
-            let level = NumberedLevel {
-                level: &levels[number],
-                number,
-            };
+        let prepare = |level, mass| {
             let level = FilterLevel::new(level, mass, map, pixel);
             if near { level } else { level.flat() }
         };
-        let (finer, coarser) = match mass {
-            0 => (prepare(choice.level, fixed_point::MASS), None),
-            fixed_point::MASS => (prepare(choice.level + 1, fixed_point::MASS), None),
-            _ => (
-                prepare(choice.level, fixed_point::MASS - mass),
-                Some(prepare(choice.level + 1, mass)),
-            ),
-        };
+        let rest = coarser.map_or(0, |(_, mass)| mass);
         Self {
             pixel,
             wrap: settings.wrap,
             pivot: if near { map.pivot } else { DVec2::ZERO },
-            taps: reading.taps,
+            taps,
             tap_steps: settings.detail.derivatives.step(settings.sample_step),
-            finer,
-            coarser,
+            finer: prepare(finer, fixed_point::MASS - rest),
+            coarser: coarser.map(|(level, mass)| prepare(level, mass)),
         }
     }
 

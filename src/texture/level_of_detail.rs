@@ -6,16 +6,7 @@
 use glam::DVec2;
 
 use super::detail_settings::{FixedLevel, FootprintExtent};
-use super::{Footprint, LevelSampling, MipPyramid, SamplingSettings, Taps};
-
-/// Which levels a footprint reads: the finer one, and where two are mixed the next coarser and its weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LevelChoice {
-    /// Number of the (finer) level.
-    pub level: usize,
-    /// Weight of level `level + 1`; zero when only one level is read.
-    pub next_weight: f32,
-}
+use super::{Area, Footprint, LevelChoice, LevelSampling, MipPyramid, SamplingSettings, Taps};
 
 /// How a footprint reads a pyramid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +17,10 @@ pub struct Reading {
     pub taps: Taps,
     /// Level of detail with bias, not clamped.
     pub lod: f64,
-    /// The levels that it leads to.
+    /// The levels that it leads to; of a ripmap those of the longer side of its box.
     pub levels: LevelChoice,
+    /// What of the texture is weighed, where that is an area.
+    pub area: Option<Area>,
 }
 
 impl Reading {
@@ -40,6 +33,9 @@ impl Reading {
         let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
         let detail = &settings.detail;
         let footprint = per_pixel.scaled(detail.derivatives.step(settings.sample_step));
+        if settings.level.weighs_area() {
+            return Self::of_area(footprint, pyramid, settings);
+        }
         let taps = Taps::new(&footprint, size, settings.anisotropy);
         let computed = || {
             if taps.count == 1 {
@@ -58,48 +54,26 @@ impl Reading {
             taps,
             lod,
             levels: LevelChoice::new(lod, last, sampling),
+            area: None,
         }
     }
-}
 
-impl LevelChoice {
-    /// The levels that are read at a level of detail, of levels `0..=last`.
-    pub fn new(lod: f64, last: usize, sampling: LevelSampling) -> Self {
-        let lod = lod.clamp(0.0, last as f64);
-        match sampling {
-            LevelSampling::Zero => Self {
-                level: 0,
-                next_weight: 0.0,
-            },
-            LevelSampling::Nearest => Self {
-                level: whole(lod + 0.5).min(last),
-                next_weight: 0.0,
-            },
-            LevelSampling::Linear => {
-                let level = whole(lod).min(last);
-                Self {
-                    level,
-                    next_weight: fraction(lod - level as f64),
-                }
-            }
+    /// The same by a filter that weighs an area; it needs no taps.
+    fn of_area(footprint: Footprint, pyramid: &MipPyramid, settings: &SamplingSettings) -> Self {
+        let (area, lod) = Area::new(&footprint, pyramid, settings);
+        let levels = match area {
+            Area::Ellipse(ellipse) => LevelChoice::alone(ellipse.level),
+            Area::Box(area) => LevelChoice::alone(area.level),
+            Area::Ripmap(_) => LevelChoice::new(lod, pyramid.last_level(), LevelSampling::Linear),
+        };
+        Self {
+            footprint,
+            taps: Taps::ONE,
+            lod,
+            levels,
+            area: Some(area),
         }
     }
-}
-
-/// The whole part of a clamped level of detail.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a level of detail is clamped to 0..=30"
-)]
-fn whole(lod: f64) -> usize {
-    lod as usize
-}
-
-/// The fractional part of a level of detail as a weight.
-#[expect(clippy::cast_possible_truncation, reason = "a weight in 0..1 loses only digits")]
-fn fraction(weight: f64) -> f32 {
-    weight as f32
 }
 
 #[cfg(test)]

@@ -2,16 +2,23 @@
 
 mod anisotropic_filter;
 mod anisotropy;
+mod area;
+mod area_filter;
+mod area_trace;
 mod bilinear;
 mod block_filter;
 mod course_sampler;
 mod cubic;
 mod decode;
 mod detail_settings;
+mod ellipse;
+mod ewa_filter;
+mod ewa_sums;
 mod filter;
 mod filter_plan;
 mod fixed_point;
 mod footprint;
+mod level_choice;
 mod level_of_detail;
 mod nearest_sums;
 #[cfg(test)]
@@ -19,10 +26,13 @@ mod oracle;
 mod pixel_filter;
 mod pyramid;
 mod pyramid_filter;
+mod pyramid_values;
+mod ripmap;
 mod sample_filter;
 mod sample_offsets;
 mod settings;
 mod simd_channels;
+mod summed_area;
 mod tent_weights;
 mod texel_coordinates;
 mod tile;
@@ -31,23 +41,29 @@ mod uv_map;
 mod wrap;
 
 pub use anisotropy::{Anisotropy, Taps};
+pub use area::{Area, TexelBox};
+pub use area_filter::AreaFilter;
 pub use course_sampler::Sampler;
 pub use cubic::Cubic;
 pub use decode::{DecodeError, Memory, Run, decode_rows};
 pub use detail_settings::{Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LodBias};
+pub use ellipse::Ellipse;
 pub use filter::{Filter, SampleGrid};
 pub use filter_plan::PixelList;
 pub use footprint::Footprint;
-pub use level_of_detail::{LevelChoice, Reading};
+pub use level_choice::LevelChoice;
+pub use level_of_detail::Reading;
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use pyramid_filter::PyramidFilter;
+pub use ripmap::Ripmap;
 pub use settings::SamplingSettings;
+pub use summed_area::{BoxRead, SummedAreaTable};
 pub use tile::{Tile, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 pub use wrap::Wrap;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::color::ResolveSpace;
 
@@ -77,6 +93,14 @@ pub enum LevelSampling {
     Nearest,
     /// The two neighbouring levels, mixed by the fraction of the level of detail.
     Linear,
+    /// All texels under the ellipse that a pixel is on the texture, by a Gaussian, of the level whose texels its minor axis is
+    /// one to two of: elliptical weighted average (Greene and Heckbert, "Creating raster Omnimax images from multiple
+    /// perspective views using the elliptical weighted average filter", 1986).
+    Ewa,
+    /// The mean of the box around the footprint, from a table of sums (Crow, "Summed-area tables for texture mapping", 1984).
+    SummedArea,
+    /// Levels that are halved in width and height each for itself, one of each axis, mixed along both.
+    Ripmap,
 }
 
 /// An image that primitives are painted with.
@@ -88,6 +112,10 @@ pub struct Texture {
     pub pyramid: MipPyramid,
     /// The same by other filters and in linear light, once somebody asks for them: by filter, then by space.
     others: [[OnceLock<MipPyramid>; ResolveSpace::ALL.len()]; PyramidFilter::ALL.len()],
+    /// Levels of all widths and heights, once somebody asks for them: likewise.
+    ripmaps: [[OnceLock<Arc<Ripmap>>; ResolveSpace::ALL.len()]; PyramidFilter::ALL.len()],
+    /// Sums of texels, once somebody asks for them: by space.
+    summed: [OnceLock<Arc<SummedAreaTable>>; ResolveSpace::ALL.len()],
     /// How colours are to be found in its levels, whatever the settings say (`image-rendering` of SVG).
     pub asks: Option<PixelSampling>,
 }
@@ -126,7 +154,14 @@ impl PixelSampling {
 
 impl LevelSampling {
     /// Every value, in the order of menus and of the key that steps through them.
-    pub const ALL: [Self; 3] = [Self::Zero, Self::Nearest, Self::Linear];
+    pub const ALL: [Self; 6] = [
+        Self::Zero,
+        Self::Nearest,
+        Self::Linear,
+        Self::Ewa,
+        Self::SummedArea,
+        Self::Ripmap,
+    ];
 
     /// The name used in the command line and the interface.
     pub const fn name(self) -> &'static str {
@@ -134,7 +169,16 @@ impl LevelSampling {
             Self::Zero => "zero",
             Self::Nearest => "nearest",
             Self::Linear => "linear",
+            Self::Ewa => "ewa",
+            Self::SummedArea => "summed-area",
+            Self::Ripmap => "ripmap",
         }
+    }
+
+    /// Whether a sample weighs an area of the texture, instead of texels around a point or several taps.
+    #[inline]
+    pub const fn weighs_area(self) -> bool {
+        matches!(self, Self::Ewa | Self::SummedArea | Self::Ripmap)
     }
 }
 
@@ -145,6 +189,8 @@ impl Texture {
             name: name.to_owned(),
             pyramid,
             others: Default::default(),
+            ripmaps: Default::default(),
+            summed: Default::default(),
             asks: None,
         }
     }
@@ -168,6 +214,32 @@ impl Texture {
                 ResolveSpace::Linear => MipPyramid::build_in_light(base, filter),
             }
         })
+    }
+
+    /// Levels of all widths and heights, averaged in these values by this filter; built when first asked for.
+    pub fn ripmap(&self, space: ResolveSpace, filter: PyramidFilter) -> &Ripmap {
+        self.ripmaps[filter as usize][space as usize]
+            .get_or_init(|| Arc::new(Ripmap::build(self.tabled(), space, filter)))
+    }
+
+    /// Sums of texels in these values; built when first asked for.
+    pub fn summed_area(&self, space: ResolveSpace) -> &SummedAreaTable {
+        self.summed[space as usize].get_or_init(|| Arc::new(SummedAreaTable::build(self.tabled(), space)))
+    }
+
+    /// How many levels of each height its ripmap has, built or not.
+    pub fn ripmap_widths(&self) -> usize {
+        ripmap::widths(self.tabled_size()[0])
+    }
+
+    /// Width and height in texels of the level that its ripmap and its sums are made of: the base, unless that is very large.
+    pub fn tabled_size(&self) -> [u32; 2] {
+        [self.tabled().width(), self.tabled().height()]
+    }
+
+    /// The level that tables are made of.
+    fn tabled(&self) -> &MipLevel {
+        &self.pyramid.levels()[area::tabled_level(&self.pyramid)]
     }
 
     /// The settings by which this texture is read, where they are others than these.

@@ -22,8 +22,8 @@ use rayon::prelude::*;
 
 use super::PyramidFilter;
 use super::pyramid_filter::weights;
-use crate::color::{Light, LightResolver, Premultiplied16};
-use crate::rules::Rules;
+use super::pyramid_values::{PyramidValues, light};
+use crate::color::ResolveSpace;
 
 /// The longest side of a level, in texels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -71,10 +71,10 @@ pub struct MipPyramid {
 }
 
 /// A level before its texels are rounded to bytes, so that rounding does not pile up from level to level.
-struct ExactLevel {
-    width: u32,
-    height: u32,
-    texels: Vec<[f32; 4]>,
+pub(super) struct ExactLevel {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) texels: Vec<[f32; 4]>,
 }
 
 /// How texels of a finer row or column contribute to one of the coarser: at most three, with weights that sum to one.
@@ -160,7 +160,7 @@ impl MipLevel {
     }
 
     /// The rows without padding.
-    fn rows(&self) -> impl IndexedParallelIterator<Item = &[[u8; 4]]> {
+    pub(super) fn rows(&self) -> impl IndexedParallelIterator<Item = &[[u8; 4]]> {
         let used = self.stride as usize * self.height as usize;
         let rows = self.texels[..used].par_chunks_exact(self.stride as usize);
         rows.map(|row| &row[..self.width as usize])
@@ -195,21 +195,20 @@ impl MipPyramid {
     /// The same with another filter. Where that has weights below zero, texels are clamped to what a premultiplied colour can be,
     /// after the sum; what the next level is made of is not.
     pub fn build_by(base: MipLevel, filter: PyramidFilter) -> Self {
-        let texel = |mean| kept(filter, mean, 255.0).map(to_byte);
-        Self::build_with(base, filter, |row| Cow::Borrowed(row), texel)
+        let values = PyramidValues::new(ResolveSpace::Stored, filter);
+        Self::build_with(base, filter, |row| Cow::Borrowed(row), |mean| values.texel(mean))
     }
 
     /// The same with means of linear light, each texel weighted by its alpha.
     pub fn build_in_light(base: MipLevel, filter: PyramidFilter) -> Self {
-        let resolver = LightResolver::new(1, Rules::Standard);
-        let light = |texel: &[u8; 4]| Light::new(Premultiplied16::from_bytes(*texel)).weighted();
-        let texel = |mean: [f32; 4]| {
-            let light = Light::of_weighted(kept(filter, mean, 1.0));
-            let [b, g, r, alpha] = resolver.pixel(light).to_le_bytes();
-            let weighted = |channel: u8| to_byte(f32::from(channel) * f32::from(alpha) / 255.0);
-            [weighted(r), weighted(g), weighted(b), alpha]
-        };
-        Self::build_with(base, filter, |row| Cow::Owned(row.iter().map(light).collect()), texel)
+        let values = PyramidValues::new(ResolveSpace::Linear, filter);
+        let texel = |mean| values.texel(mean);
+        Self::build_with(
+            base,
+            filter,
+            |row| Cow::Owned(row.iter().copied().map(light).collect()),
+            texel,
+        )
     }
 
     /// Builds every level from the base, whose rows `parts` takes to what is averaged; `texel` makes texels of means.
@@ -225,9 +224,10 @@ impl MipPyramid {
         let mut exact: Option<ExactLevel> = None;
         while width > 1 || height > 1 {
             let size = [width, height];
+            let sizes = [size, size.map(|side| (side / 2).max(1))];
             let (next, level) = match (&exact, &levels[0]) {
-                (Some(exact), _) => coarser(filter, size, |y| Cow::Borrowed(exact.row(y)), &texel),
-                (None, base) => coarser(filter, size, |y| parts(base.row(y)), &texel),
+                (Some(exact), _) => coarser(filter, sizes, |y| Cow::Borrowed(exact.row(y)), &texel),
+                (None, base) => coarser(filter, sizes, |y| parts(base.row(y)), &texel),
             };
             (width, height) = (next.width, next.height);
             exact = Some(next);
@@ -254,32 +254,31 @@ impl MipPyramid {
 
 impl ExactLevel {
     /// A row, counted from the top.
-    fn row(&self, y: usize) -> &[[f32; 4]] {
+    pub(super) fn row(&self, y: usize) -> &[[f32; 4]] {
         &self.texels[y * self.width as usize..][..self.width as usize]
     }
 }
 
-/// The next coarser level by this filter.
-fn coarser<'l, C: Copy + Into<f32> + 'l>(
+/// A coarser level by this filter: from a size to another one, of which each side is as long, or half as long and rounded down.
+pub(super) fn coarser<'l, C: Copy + Into<f32> + 'l>(
     filter: PyramidFilter,
-    size: [u32; 2],
+    sizes: [[u32; 2]; 2],
     line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
     texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
 ) -> (ExactLevel, MipLevel) {
     match filter {
-        PyramidFilter::Box => halve(size, line, texel),
-        PyramidFilter::Tent | PyramidFilter::Kaiser => weigh(filter, size, line, texel),
+        PyramidFilter::Box => halve(sizes, line, texel),
+        PyramidFilter::Tent | PyramidFilter::Kaiser => weigh(filter, sizes, line, texel),
     }
 }
 
 /// The same by weights of more texels: rows first, then columns of what they became.
 fn weigh<'l, C: Copy + Into<f32> + 'l>(
     filter: PyramidFilter,
-    size: [u32; 2],
+    [size, [width, height]]: [[u32; 2]; 2],
     line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
     texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
 ) -> (ExactLevel, MipLevel) {
-    let [width, height] = size.map(|side| (side / 2).max(1));
     let [columns, rows] = [weights(filter, size[0], width), weights(filter, size[1], height)];
     let mut narrow = vec![[0.0; 4]; width as usize * size[1] as usize];
     narrow
@@ -321,28 +320,16 @@ fn inside(texel: i64, side: usize) -> usize {
     usize::try_from(texel).unwrap_or(0).min(side - 1)
 }
 
-/// A premultiplied colour that is one: alpha from nothing to `most`, and no channel above it. Means of colours are always that.
-fn kept(filter: PyramidFilter, mean: [f32; 4], most: f32) -> [f32; 4] {
-    if filter == PyramidFilter::Box {
-        return mean;
-    }
-    let [r, g, b, alpha] = mean;
-    let alpha = alpha.clamp(0.0, most);
-    let [r, g, b] = [r, g, b].map(|channel| channel.clamp(0.0, alpha));
-    [r, g, b, alpha]
-}
-
 /// The next coarser level of one of `size` texels, whose rows `line` tells: half as wide and high, rounded down, at least one
-/// texel. `texel` makes texels of means.
+/// texel; or half in one of them alone. `texel` makes texels of means.
 fn halve<'l, C: Copy + Into<f32> + 'l>(
-    size: [u32; 2],
+    [size, [width, height]]: [[u32; 2]; 2],
     line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
     texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
 ) -> (ExactLevel, MipLevel) {
-    let [width, height] = size.map(|side| (side / 2).max(1));
     let columns = shares(size[0], width);
     let rows = shares(size[1], height);
-    let even = size.iter().all(|side| side.is_multiple_of(2));
+    let even = size == [2 * width, 2 * height];
     let mut level = MipLevel::blank(width, height);
     let mut exact = vec![[0.0; 4]; width as usize * height as usize];
     let parts = exact.par_chunks_mut(width as usize).zip(level.rows_mut());
@@ -386,16 +373,6 @@ fn add_line<C: Copy + Into<f32>>(sums: &mut [[f32; 4]], line: &[[C; 4]], columns
             }
         }
     }
-}
-
-/// Rounded to nearest.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "means of bytes stay bytes; `as` saturates"
-)]
-fn to_byte(channel: f32) -> u8 {
-    (channel + 0.5) as u8
 }
 
 /// The overlap of each of `coarse` equal intervals with `fine` unit intervals, as weights that sum to one.

@@ -9,7 +9,7 @@ use super::course_sampler::{Sampler, course_place, course_point, course_weights}
 use super::filter::{Filter, SampleGrid};
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::pyramid::NumberedLevel;
-use super::{PixelSampling, Wrap, bilinear, fixed_point, wrap};
+use super::{BoxRead, PixelSampling, Wrap, bilinear, fixed_point, wrap};
 use crate::color::Premultiplied16;
 
 /// A texel that a sample read.
@@ -46,6 +46,8 @@ pub struct TextureReads {
     pub taps: Vec<TapRead>,
     /// What stood beyond the border.
     pub wrap: Wrap,
+    /// The box of a summed-area table. One of thousands of texels has none of them in `texels`; their sum is here.
+    pub summed: Option<BoxRead>,
 }
 
 /// Gathers what is read.
@@ -176,7 +178,14 @@ impl Notes {
 
     /// Adds up what was read several times.
     fn finish(self) -> TextureReads {
-        let TextureReads { mut texels, taps, wrap } = self.reads;
+        self.reads.once()
+    }
+}
+
+impl TextureReads {
+    /// The same with what was read several times added up.
+    pub(super) fn once(mut self) -> Self {
+        let texels = &mut self.texels;
         texels.sort_by_key(|texel| (texel.level, texel.at[1], texel.at[0]));
         texels.dedup_by(|next, kept| {
             let same = (next.level, next.at) == (kept.level, kept.at);
@@ -185,11 +194,9 @@ impl Notes {
             }
             same
         });
-        TextureReads { texels, taps, wrap }
+        self
     }
-}
 
-impl TextureReads {
     /// The texels times their weights: the colour that was read, premultiplied, channels in `0.0..=255.0`.
     pub fn mean(&self) -> [f64; 4] {
         let mut mean = [0.0; 4];

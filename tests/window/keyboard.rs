@@ -30,7 +30,7 @@ fn keys_change_the_sampling() {
     program.desktop.type_char('p', &[]);
     settings.pixel_sampling = PixelSampling::Bilinear;
     program.shows(&rendered(&path, &settings, SIZE), "bilinear after P");
-    for level in [LevelSampling::Nearest, LevelSampling::Linear, LevelSampling::Zero] {
+    for level in LevelSampling::ALL[1..].iter().chain([&LevelSampling::Zero]).copied() {
         program.desktop.type_char('l', &[]);
         settings.level_sampling = level;
         program.shows(

@@ -4,7 +4,7 @@ use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, Ui, 
 
 use super::contributions::LIT;
 use super::look::opaque;
-use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, Texture, View};
+use crate::inspect::{AreaUse, Interpolated, Level, Paint, Tap, TexelPlace, Texture, View};
 use crate::raster::Region;
 use crate::texture::MipLevel;
 use crate::viewer::Viewer;
@@ -38,6 +38,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
         wrapped,
         taps,
         texels,
+        ..
     } = value
     else {
         return None;
@@ -63,6 +64,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     };
     window.texels(ui, image);
     window.footprint(ui, centre, steps);
+    if let Some(area) = &texture.area {
+        window.area(ui, centre, area, turned);
+    }
     window.taps(ui, taps, level);
     let under = response.hover_pos().and_then(|at| window.texel_at(at, level));
     let place = under.map(|at| TexelPlace {
@@ -99,7 +103,12 @@ fn legend(texture: &Texture, level: &Level) -> String {
         level.number,
         short(&texture.name),
         texture.step,
-        if texture.taps > 1 { "taps" } else { "point that is read" }
+        match &texture.area {
+            Some(AreaUse::Ellipse { .. }) => "ellipse that is weighed, and its middle",
+            Some(AreaUse::Box { .. }) => "box that is averaged, and its middle",
+            Some(AreaUse::Ripmap { .. }) | None if texture.taps == 1 => "point that is read",
+            _ => "taps",
+        }
     )
 }
 
@@ -162,6 +171,28 @@ impl Window {
         for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, FOOTPRINT)] {
             painter.add(Shape::closed_line(corners.clone(), Stroke::new(width, color)));
             painter.add(Shape::closed_line(ellipse.clone(), Stroke::new(width, color)));
+        }
+    }
+
+    /// The rim of what is weighed, about the same point: the ellipse or the box.
+    fn area(&self, ui: &Ui, centre: [f64; 2], area: &AreaUse, turned: [bool; 2]) {
+        let sign = turned.map(|turned| if turned { -1.0 } else { 1.0 });
+        let at = |x: f64, y: f64| self.place([centre[0] + x * sign[0], centre[1] + y * sign[1]]);
+        let rim: Vec<Pos2> = match area {
+            AreaUse::Ellipse { axes: [long, short] } => (0..64)
+                .map(|i| {
+                    let (sin, cos) = (f64::from(i) / 64.0 * std::f64::consts::TAU).sin_cos();
+                    at(long[0] * cos + short[0] * sin, long[1] * cos + short[1] * sin)
+                })
+                .collect(),
+            AreaUse::Box { sides: [width, height] } => [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
+                .map(|(x, y)| at(x * width, y * height))
+                .to_vec(),
+            AreaUse::Ripmap { .. } => return,
+        };
+        let painter = ui.painter().with_clip_rect(self.rect);
+        for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, TAP)] {
+            painter.add(Shape::closed_line(rim.clone(), Stroke::new(width, color)));
         }
     }
 

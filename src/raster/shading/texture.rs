@@ -12,7 +12,9 @@ use crate::raster::shading::kind::{PaintKind, Shade, at_corner, masked_sums_by_p
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
-use crate::texture::{Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, UvMap};
+use crate::texture::{
+    AreaFilter, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture, UvMap,
+};
 
 /// Most samples along the side of a pixel of which a filter takes sums by masks.
 const MAX_MASKED_SIDE: u32 = 8;
@@ -42,6 +44,8 @@ pub(super) struct TextureShader<'a> {
 enum Reader<'a> {
     Standard(Filter<'a>),
     Course(Sampler<'a>),
+    /// By the standard rules, whatever the settings say: an area.
+    Area(Box<AreaFilter<'a>>),
 }
 
 impl TexturePaint {
@@ -77,7 +81,6 @@ impl PaintKind for TexturePaint {
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> TextureShader<'a> {
         let texture = context.sources.textures[self.texture as usize];
-        let pyramid = texture.pyramid_in(context.sampling.pyramid, context.sampling.pyramid_filter);
         let uv = Planes::new(context.grid, corners, self.uv);
         let map = uv_map(context.grid, &uv);
         let own = texture.own_sampling(&context.sampling);
@@ -86,10 +89,22 @@ impl PaintKind for TexturePaint {
             texture: self.texture,
             uv,
             opacity: self.opacity,
-            reader: match sampling.rules {
-                Rules::Standard | Rules::Float => Reader::Standard(Filter::new(pyramid, &map, sampling)),
-                Rules::Course => Reader::Course(Sampler::new(pyramid, &map.footprint(), sampling)),
-            },
+            reader: Reader::new(texture, &map, sampling),
+        }
+    }
+}
+
+impl<'a> Reader<'a> {
+    fn new(texture: &'a Texture, map: &UvMap, sampling: &SamplingSettings) -> Self {
+        if sampling.level.weighs_area()
+            && let Some(filter) = AreaFilter::new(texture, map, sampling)
+        {
+            return Self::Area(Box::new(filter));
+        }
+        let pyramid = texture.pyramid_in(sampling.pyramid, sampling.pyramid_filter);
+        match sampling.rules {
+            Rules::Standard | Rules::Float => Self::Standard(Filter::new(pyramid, map, sampling)),
+            Rules::Course => Self::Course(Sampler::new(pyramid, &map.footprint(), sampling)),
         }
     }
 }
@@ -99,12 +114,11 @@ impl Shade for TextureShader<'_> {
         match &self.reader {
             Reader::Standard(filter) => {
                 filter.points(simd::level(), grid, points, colors);
-                if self.opacity < 1.0 {
-                    let opacity = unit_to_16(self.opacity.max(0.0));
-                    for color in colors {
-                        *color = color.faded(opacity);
-                    }
-                }
+                self.fade(colors);
+            }
+            Reader::Area(filter) => {
+                filter.points(simd::level(), grid, points, colors);
+                self.fade(colors);
             }
             Reader::Course(sampler) => {
                 for (place, color) in points.iter().zip(colors) {
@@ -118,7 +132,10 @@ impl Shade for TextureShader<'_> {
     fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
         match &self.reader {
             Reader::Standard(filter) => filter.pixels(simd::level(), pixels.grid, pixels.places, values),
-            Reader::Course(_) => pixels_by_points(self, pixels, rules, values),
+            Reader::Area(filter) if rules != Rules::Course => {
+                filter.pixels(simd::level(), pixels.grid, pixels.places, values);
+            }
+            Reader::Course(_) | Reader::Area(_) => pixels_by_points(self, pixels, rules, values),
         }
     }
 
@@ -138,6 +155,10 @@ impl Shade for TextureShader<'_> {
         let [x, y] = sample.position();
         match &self.reader {
             Reader::Standard(filter) => Attributes::Texture {
+                uv: self.uv.at(x, y),
+                reads: filter.reads(sample.grid, sample.place),
+            },
+            Reader::Area(filter) => Attributes::Texture {
                 uv: self.uv.at(x, y),
                 reads: filter.reads(sample.grid, sample.place),
             },
@@ -167,14 +188,24 @@ impl Shade for TextureShader<'_> {
 impl TextureShader<'_> {
     /// Sums over the samples of pixels, of which each must be opaque, under the standard rules.
     fn filtered_sums(&self, pixels: Pixels<'_>, masks: Option<&[u64]>, sums: &mut [[u32; 4]]) {
-        if let Reader::Standard(filter) = &self.reader {
-            let list = PixelList {
-                pixels: pixels.places,
-                masks,
-            };
-            filter.sums(simd::level(), pixels.grid, list, sums);
-        } else {
-            debug_assert!(false, "the course truncates every sample: nothing is summed before");
+        let list = PixelList {
+            pixels: pixels.places,
+            masks,
+        };
+        match &self.reader {
+            Reader::Standard(filter) => filter.sums(simd::level(), pixels.grid, list, sums),
+            Reader::Area(filter) => filter.sums(simd::level(), pixels.grid, list, sums),
+            Reader::Course(_) => debug_assert!(false, "the course truncates every sample: nothing is summed before"),
+        }
+    }
+
+    /// What shines through.
+    fn fade(&self, colors: &mut [Premultiplied16]) {
+        if self.opacity < 1.0 {
+            let opacity = unit_to_16(self.opacity.max(0.0));
+            for color in colors {
+                *color = color.faded(opacity);
+            }
         }
     }
 }

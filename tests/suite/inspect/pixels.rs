@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use crate::support::explaining::advised;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 10] {
+fn settings() -> [RenderSettings; 13] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -44,6 +44,21 @@ fn settings() -> [RenderSettings; 10] {
             pixel_sampling: PixelSampling::Bilinear,
             level_sampling: LevelSampling::Linear,
             rules: Rules::Course,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            level_sampling: LevelSampling::Ewa,
+            ..plain
+        },
+        RenderSettings {
+            level_sampling: LevelSampling::SummedArea,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Ripmap,
             ..plain
         },
         RenderSettings {
@@ -526,10 +541,13 @@ fn check_colors(paint: &Paint, rules: Rules) {
                 let [r, g, b, alpha] = rgba.map(f64::from);
                 [r, g, b, 1.0].map(|channel| channel * alpha * 255.0)
             }
-            Interpolated::Texture { texels, taps, .. } => {
-                let weights: f64 = texels.iter().map(|texel| texel.weight).sum();
-                assert!((weights - 1.0).abs() < 1e-5, "weights sum to {weights}");
+            Interpolated::Texture {
+                texels, taps, summed, ..
+            } => {
                 let texture = paint.texture.as_ref().unwrap();
+                let weights: f64 = texels.iter().map(|texel| texel.weight).sum();
+                let is_listed = !texels.is_empty() || summed.is_none();
+                assert!((weights - 1.0).abs() < 1e-5 || !is_listed, "weights sum to {weights}");
                 assert_eq!(taps.len() % texture.taps as usize, 0, "taps per level");
                 for texel in texels {
                     assert!(
@@ -538,6 +556,9 @@ fn check_colors(paint: &Paint, rules: Rules) {
                     );
                 }
                 std::array::from_fn(|i| {
+                    if let Some(summed) = summed.as_ref().filter(|summed| !summed.light) {
+                        return summed.sum[i] / summed.area * texture.opacity;
+                    }
                     let read = texels.iter().map(|texel| f64::from(texel.color[i]) * texel.weight);
                     read.sum::<f64>() * texture.opacity
                 })

@@ -1,5 +1,6 @@
 //! What is drawn: coverage, patterns, rules, goldens, and the oracle that draws everything again.
 
+mod areas;
 mod coverage;
 mod deep_zooms;
 mod exact_coverage;

@@ -21,7 +21,7 @@ use rasterscope::texture::{
     Derivatives, FixedLevel, FootprintExtent, LevelSampling, MipLevel, PixelSampling, Texture, Wrap,
 };
 
-use crate::support::{areas, resolve_filters};
+use crate::support::{area_filters, areas, resolve_filters};
 
 /// Premultiplied, `0.0..=1.0`.
 pub(crate) type Color = [f64; 4];
@@ -635,6 +635,9 @@ fn is_inside_in_floats(corners: [(f32, f32); 3], at: (f32, f32)) -> bool {
 
 /// The mean of the taps along the longer side of the footprint.
 pub(crate) fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], settings: &RenderSettings) -> Color {
+    if settings.level_sampling.weighs_area() {
+        return area_filters::filtered(texture, uv, per_pixel, settings);
+    }
     let base = &texture.pyramid.levels()[0];
     let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
     let step = match settings.detail.derivatives {
@@ -704,6 +707,7 @@ fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> 
     match settings.level_sampling {
         LevelSampling::Zero if settings.detail.fixed.is_none() => read(0),
         LevelSampling::Zero | LevelSampling::Nearest => read((lod + 0.5).floor() as usize),
+        LevelSampling::Ewa | LevelSampling::SummedArea | LevelSampling::Ripmap => unreachable!("they weigh areas"),
         LevelSampling::Linear => {
             let (fine, coarse) = (read(lod.floor() as usize), read(lod.floor() as usize + 1));
             std::array::from_fn(|k| fine[k] * (1.0 - lod.fract()) + coarse[k] * lod.fract())
@@ -711,7 +715,7 @@ fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> 
     }
 }
 
-fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling, wrap: Wrap) -> Color {
+pub(super) fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling, wrap: Wrap) -> Color {
     // Copies of the texture side by side.
     let inside = |at: f64, side: u32| {
         let (at, side) = (at as i32, side.cast_signed());

@@ -2,6 +2,7 @@
 //! that makes mistakes.
 
 pub(crate) mod areas;
+mod area_filters;
 pub(crate) mod brute_force;
 pub(crate) mod documents;
 pub(crate) mod explaining;

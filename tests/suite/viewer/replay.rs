@@ -49,7 +49,7 @@ fn replay_the_courses_keys() {
     assert_eq!(render.sample_rate.samples(), 4, "1 4 9 4");
     assert_eq!(render.pixel_sampling, PixelSampling::Bilinear, "P");
     assert_eq!(render.level_sampling, LevelSampling::Linear, "zero, nearest, linear");
-    session.keys(&["p", "p", "p", "p", "l", "-", "-"]);
+    session.keys(&["p", "p", "p", "p", "l", "l", "l", "l", "-", "-"]);
     let render = session.viewer.settings().render;
     assert_eq!(render.pixel_sampling, PixelSampling::Nearest, "round");
     assert_eq!(render.level_sampling, LevelSampling::Zero, "round");

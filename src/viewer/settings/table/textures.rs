@@ -46,18 +46,19 @@ pub(super) const ROWS: &[PictureSetting] = &[
         ..named!("texture-wrap", "wrap", Wrap, render.texture_wrap)
     },
     PictureSetting {
-        help: "Which mip levels of a texture are read",
+        help: "Which mip levels of a texture are read, or by what its area is weighed",
         about: About::Textures,
         told: Told::Always,
-        panel: Some(PanelRow::new("Level", "Level sampling", Control::Buttons)),
+        panel: Some(PanelRow::new("Level", "Level sampling", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
+            more: "An ellipse blurs least and costs up to ten times as much; a box from sums and a ripmap blur what lies across the axes, and cost up to four times",
             keys: &[Chord::char('l')],
             ..SettingCommand::new(
                 "level-sampling",
                 "Level sampling",
-                "Switches between mip level zero, nearest and linear",
+                "Reads mip level zero, the nearest or two mixed; or weighs the footprint's area, by an ellipse (ewa), a summed-area table or a ripmap",
             )
         }],
         ..named!("level-sampling", "level sampling", LevelSampling, render.level_sampling)

@@ -107,20 +107,7 @@ impl Explanation {
             paints,
             pinholes,
             unlisted,
-            missed: missed
-                .into_iter()
-                .filter_map(|(primitive, area)| {
-                    let polygon = question.polygon(primitive);
-                    Some(Missed {
-                        source: question.source(primitive, quotes.as_ref())?,
-                        primitive,
-                        stroke: polygon.is_some_and(Polygon::is_stroke),
-                        crisp: polygon.is_some_and(Polygon::is_crisp),
-                        area,
-                        width: explainer.width(primitive, around)?,
-                    })
-                })
-                .collect(),
+            missed: question.missed(missed, sources, around),
             truth: None,
         })
     }
@@ -142,6 +129,22 @@ struct Shaped {
 }
 
 impl Question<'_> {
+    /// What covers parts of the pixel and none of its samples, and how wide it is `around` the pixel.
+    fn missed(&self, found: Vec<(u32, f64)>, sources: Sources<'_>, around: f64) -> Vec<Missed> {
+        let missed = |(primitive, area): (u32, f64)| {
+            let polygon = self.polygon(primitive);
+            Some(Missed {
+                source: self.source(primitive, sources.quotes)?,
+                primitive,
+                stroke: polygon.is_some_and(Polygon::is_stroke),
+                crisp: polygon.is_some_and(Polygon::is_crisp),
+                area,
+                width: sources.explainer.width(primitive, around)?,
+            })
+        };
+        found.into_iter().filter_map(missed).collect()
+    }
+
     fn paint(&self, op: &PaintedCommand, piece: Option<Piece>, seen: &[bool], sources: Sources<'_>) -> Paint {
         let source = self.source(op.source, sources.quotes);
         let Shaped { shape, views, texture } = self.shape(op, source.is_none(), piece);

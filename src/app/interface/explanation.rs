@@ -188,6 +188,7 @@ impl ExplanationPanel {
                     words.extend(explanation.short_sample_lines(sample));
                     words
                 }
+                None if explanation.exact => vec!["It holds one colour, and has no samples.".to_owned()],
                 None => vec!["Point at a sample to light what it shows, click to choose it.".to_owned()],
             };
             // No words are higher than the pixel: what stands below stays under the pointer.

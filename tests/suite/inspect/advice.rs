@@ -5,7 +5,7 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{View as SceneView, ViewTransform};
 use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
 use rasterscope::post::PostProcess;
-use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
+use rasterscope::raster::{Framebuffer, PixelCoverage, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
@@ -151,6 +151,12 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
             settings.post_process = PostProcess::ALL
                 .into_iter()
                 .find(|process| process.name() == value)
+                .unwrap();
+        }
+        Setting::Coverage => {
+            settings.coverage = PixelCoverage::ALL
+                .into_iter()
+                .find(|coverage| coverage.name() == value)
                 .unwrap();
         }
         Setting::Pattern => {

@@ -244,14 +244,14 @@ fn a_seam_is_called_one_and_advice_knows_better() {
     let text = seam.to_string();
     for words in ["conflation", "supersampling has no", "Coverage by samples"] {
         assert!(
-            text.replace("\n", " ").replace("      ", " ").contains(words),
+            text.replace('\n', " ").replace("      ", " ").contains(words),
             "{words}: {text}"
         );
     }
     let inside = advised(&scene, &exact(), [8, 8], [1, 4]);
     assert!(inside.conflation.is_none(), "nobody meets there: {inside}");
     // Two halves that lie on each other leave the other half as it is.
-    let twice = svg(&format!(r##"{red}<path d="M0 0H3.5V8H0z"/><path d="M0 0H3.5V8H0z"/>"##));
+    let twice = svg(&format!(r#"{red}<path d="M0 0H3.5V8H0z"/><path d="M0 0H3.5V8H0z"/>"#));
     let found = advised(&twice, &exact(), [8, 8], [3, 4]);
     assert!(found.conflation.is_none(), "no neighbours: {found}");
 }

@@ -83,7 +83,15 @@ impl OutlineAreas {
         self.active.clear();
         let mut next = 0;
         for y in rows.start..rows.end {
-            self.active.retain(|(rows, _)| rows.end > y);
+            // In any order: what lies in the row is sorted.
+            let mut at = 0;
+            while let Some((rows, _)) = self.active.get(at) {
+                if rows.end > y {
+                    at += 1;
+                } else {
+                    self.active.swap_remove(at);
+                }
+            }
             while let Some(edge) = self.edges.get(next).filter(|(rows, _)| rows.start <= y) {
                 self.active.push(*edge);
                 next += 1;

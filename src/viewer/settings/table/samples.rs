@@ -127,7 +127,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "Where colours are computed: at every sample, or once per primitive and pixel, in the pixel's centre or in the centroid of the covered samples",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("Shading", "Shading rate", Control::Buttons)),
+        panel: Some(PanelRow::new("Shading", "Shading rate", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,

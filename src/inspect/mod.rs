@@ -8,8 +8,8 @@
 mod accumulation;
 mod advice;
 mod advice_words;
-mod areas;
 mod area_use;
+mod areas;
 mod around_words;
 mod contributions;
 mod depth;

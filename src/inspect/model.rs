@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use super::smoothing::Smoothing;
 use super::area_use::{AreaUse, SummedBox};
+use super::smoothing::Smoothing;
 use crate::color::ResolveSpace;
 use crate::texture::Wrap;
 

@@ -1,8 +1,8 @@
 //! What many tests need: small scenes, the brute-force renderer that knows no tiles, and one
 //! that makes mistakes.
 
-pub(crate) mod areas;
 mod area_filters;
+pub(crate) mod areas;
 pub(crate) mod brute_force;
 pub(crate) mod documents;
 pub(crate) mod explaining;

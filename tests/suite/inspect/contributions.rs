@@ -86,7 +86,7 @@ fn feeds_are_what_the_explanations_of_all_pixels_read() {
         anisotropy: Anisotropy::OFF,
         ..mixed
     };
-    let size = [22, 20];
+    let size = [17, 14];
     for (name, document) in documents {
         let scene = read(name, document);
         for settings in [plain, mixed, course] {

@@ -8,7 +8,7 @@ use super::view::ViewerOptions;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LessonOptions {
-    /// A lesson in TOML, or one of the program's: six-tasks, anisotropy, patterns
+    /// A lesson in TOML, or one of the program's: six-tasks, anisotropy, patterns, thin-ray
     pub(in crate::cli) lesson: PathBuf,
     /// Draw each step into a numbered PNG in this folder [size by default: 1600x900]
     #[arg(long, value_name = "DIR")]

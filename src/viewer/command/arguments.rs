@@ -206,7 +206,7 @@ pub(in crate::viewer) const SCENE: Argument = argument("a scene's number, from 1
 });
 
 pub(in crate::viewer) const LESSON: Argument = argument(
-    "six-tasks, anisotropy, patterns, or the path of a lesson in TOML",
+    "six-tasks, anisotropy, patterns, thin-ray, or the path of a lesson in TOML",
     |text| {
         LessonSource::named(text)
             .or_else(|| LessonSource::from_address(&path(text)))

@@ -14,10 +14,11 @@ const PREFIX: &str = "lesson:";
 const MOST_BYTES: u64 = 1 << 20;
 
 /// The lessons that come with the program: names and documents.
-pub static BUILT_IN: [(&str, &str); 3] = [
+pub static BUILT_IN: [(&str, &str); 4] = [
     ("six-tasks", include_str!("../../../assets/lessons/six-tasks.toml")),
     ("anisotropy", include_str!("../../../assets/lessons/anisotropy.toml")),
     ("patterns", include_str!("../../../assets/lessons/patterns.toml")),
+    ("thin-ray", include_str!("../../../assets/lessons/thin-ray.toml")),
 ];
 
 /// Where a lesson is read from.

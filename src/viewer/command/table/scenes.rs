@@ -104,6 +104,14 @@ pub(super) static SCENES: &[CommandSpec] = &[
     .more("PageDown goes to its next step, Esc closes it")
     .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(2)))),
     spec(
+        "lesson-thin-ray",
+        "Lesson: a thin ray",
+        "Opens the lesson on supersampling, multisampling, analytic coverage and SMAA",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(3)))),
+    spec(
         "lesson",
         "Lesson",
         "Opens a lesson: a TOML file of steps with text",

@@ -72,12 +72,17 @@ fn smaa_agrees_with_its_definition() {
         for (i, found) in (0..).zip(&found) {
             let (x, y) = (i % 40, i / 40);
             let expected = picture.smoothed(x, y, space);
-            for (found, expected) in bytes(*found).into_iter().zip(expected) {
-                assert!(
-                    (f64::from(found) - expected).abs() < 1.1,
-                    "{x}, {y}: {found} for {expected}, {space:?}"
-                );
-            }
+            let is_near = |expected: &[f64; 4]| {
+                let channels = bytes(*found).into_iter().zip(expected);
+                channels
+                    .map(|(found, expected)| (f64::from(found) - expected).abs())
+                    .fold(0.0, f64::max)
+                    < 1.1
+            };
+            assert!(
+                expected.iter().any(is_near),
+                "{x}, {y}: {found:08X} for {expected:?}, {space:?}"
+            );
         }
         changed += pixels.iter().zip(&found).filter(|(a, b)| a != b).count();
         Ok(())

@@ -13,22 +13,33 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    /// The pixel that becomes of the one at a place.
-    pub(crate) fn smoothed(&self, x: i32, y: i32, space: ResolveSpace) -> [f64; 4] {
+    /// What may become of the pixel at a place: two colours where its row and its column weigh the same but for rounding.
+    pub(crate) fn smoothed(&self, x: i32, y: i32, space: ResolveSpace) -> Vec<[f64; 4]> {
+        const ROUNDING: f64 = 1e-3;
         let (own, right, below) = (self.weights(x, y), self.weights(x + 1, y), self.weights(x, y + 1));
-        let (to_left, to_right, up, down) = (own[1][0], right[1][1], own[0][0], below[0][1]);
-        let (weights, places) = if to_left.max(to_right) > up.max(down) {
-            ([to_left, to_right], [[x - 1, y], [x + 1, y]])
-        } else {
-            ([up, down], [[x, y - 1], [x, y + 1]])
-        };
-        let sum = weights[0] + weights[1];
-        let this = values(self.pixel(x, y).expect("inside"), space);
-        if sum <= 0.0 {
-            return self.pixel(x, y).expect("inside").map(f64::from);
+        let across = [(own[1][0], [x - 1, y]), (right[1][1], [x + 1, y])];
+        let down = [(own[0][0], [x, y - 1]), (below[0][1], [x, y + 1])];
+        let most = |weights: &[(f64, [i32; 2]); 2]| weights[0].0.max(weights[1].0);
+        let difference = most(&across) - most(&down);
+        let mut found = Vec::new();
+        if difference > -ROUNDING {
+            found.push(self.mixed([x, y], across, space));
         }
+        if difference < ROUNDING {
+            found.push(self.mixed([x, y], down, space));
+        }
+        found
+    }
+
+    fn mixed(&self, [x, y]: [i32; 2], neighbours: [(f64, [i32; 2]); 2], space: ResolveSpace) -> [f64; 4] {
+        let own = self.pixel(x, y).expect("inside");
+        let sum = neighbours[0].0 + neighbours[1].0;
+        if sum <= 0.0 {
+            return own.map(f64::from);
+        }
+        let this = values(own, space);
         let mut mixed = [0.0; 4];
-        for (weight, [x, y]) in weights.into_iter().zip(places) {
+        for (weight, [x, y]) in neighbours {
             let other = values(self.pixel(x, y).unwrap_or([0; 4]), space);
             for (k, mixed) in mixed.iter_mut().enumerate() {
                 *mixed += weight / sum * (this[k] * (1.0 - weight) + other[k] * weight);

@@ -87,7 +87,7 @@ impl Picture {
         let mut weights = [[0.0; 2]; 2];
         if self.is_edge(x, y, true) {
             weights[0] = self.diagonals(x, y);
-            if weights[0] != [0.0; 2] {
+            if weights[0].iter().any(|weight| *weight > 0.0) {
                 return weights;
             }
             weights[0] = line_weights(
@@ -225,7 +225,6 @@ fn cut(x: f64, height: impl Fn(f64) -> f64) -> [f64; 2] {
 fn under_diagonal([begin, end]: [i32; 2], before: i32, after: i32) -> [f64; 2] {
     let (low, high, far) = ([0.0, 0.0], [1.0, 1.0], [1.0, 0.0]);
     let guesses: &[[[f64; 2]; 2]] = match (begin, end) {
-        (0, 0) => &[[high, high], [far, far]],
         (1, 0) => &[[far, low], [far, far]],
         (2, 0) => &[[high, low], [high, far]],
         (3, 0) => &[[high, low], [far, far]],
@@ -240,6 +239,7 @@ fn under_diagonal([begin, end]: [i32; 2], before: i32, after: i32) -> [f64; 2] {
         (0, 3) => &[[low, high], [far, far]],
         (1, 3) => &[[far, high], [far, far]],
         (2, 3) => &[[high, high], [high, far]],
+        // Nothing crosses either end, or everything.
         _ => &[[high, high], [far, far]],
     };
     let length = f64::from(before + after + 1);

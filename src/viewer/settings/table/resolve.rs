@@ -26,6 +26,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
         ..named!("resolve-filter", "filter", ResolveFilter, render.resolve_filter)
     },
     PictureSetting {
+        help: "What is done to the finished pixels: nothing, or morphological antialiasing (SMAA)",
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("", "Post-process", Control::ShortList)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "It smooths the stairs of long edges for little time, and invents what no sample saw: thin lines stay broken, and fine detail is blurred",
+            ..SettingCommand::new(
+                "post-process",
+                "Post-process",
+                "Leaves the finished pixels as they are, or guesses the lines behind stairs of pixels and blends along them (SMAA)",
+            )
+        }],
+        ..named!("post-process", "post-process", PostProcess, render.post_process)
+    },
+    PictureSetting {
         option: "filter-radius",
         label: "filter radius",
         placeholder: "R",
@@ -94,22 +111,5 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("resolve", "resolve", ResolveSpace, render.resolve)
-    },
-    PictureSetting {
-        help: "What is done to the finished pixels: nothing, or morphological antialiasing (SMAA)",
-        about: About::Samples,
-        told: Told::IfChanged,
-        panel: Some(PanelRow::new("", "Post-process", Control::ShortList)),
-        commands: &[SettingCommand {
-            step: Some(1.0),
-            takes_value: true,
-            more: "It smooths the stairs of long edges for little time, and invents what no sample saw: thin lines stay broken, and fine detail is blurred",
-            ..SettingCommand::new(
-                "post-process",
-                "Post-process",
-                "Leaves the finished pixels as they are, or guesses the lines behind stairs of pixels and blends along them (SMAA)",
-            )
-        }],
-        ..named!("post-process", "post-process", PostProcess, render.post_process)
     },
 ];

@@ -76,6 +76,7 @@ fn record_tells_scene_textures_and_settings() {
         settings,
         [
             "background #ff8000",
+            "coverage exact",
             "pixel-sampling mitchell",
             "post-process smaa",
             "sample-rate 9",
@@ -260,7 +261,8 @@ fn render_takes_a_picture_for_its_scene_and_settings() {
     );
     let told = record(&work.path().join("b.png"));
     let line = "rasterscope render out/../a.svg -o b.png --size 90x70 --view=20,15,2.5,30 --sample-rate 4 \
-                --shading-rate centroid --pixel-sampling mitchell --texture-wrap repeat --post-process smaa --background '#ff8000'";
+                --shading-rate centroid --coverage exact --pixel-sampling mitchell --texture-wrap repeat --post-process smaa \
+                --background '#ff8000'";
     assert_eq!(told.command_line, line, "what is written counts more");
 }
 

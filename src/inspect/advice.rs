@@ -221,9 +221,8 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         let settings = RenderSettings { detail, ..*own };
         changes.then(|| (value.to_owned(), settings)).into_iter().collect()
     };
-    let levels = LevelSampling::ALL
+    let levels = [LevelSampling::Linear, LevelSampling::Nearest]
         .into_iter()
-        .filter(|level| *level != LevelSampling::Zero)
         .filter(|level| *level != own.level_sampling)
         .map(|level_sampling| {
             let settings = RenderSettings { level_sampling, ..*own };

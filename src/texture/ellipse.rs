@@ -10,6 +10,11 @@
 //!      . o o . .        a texel weighs exp(-2 q) - exp(-2), where q is 0 in the middle and 1 at the rim
 //! ```
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use glam::DVec2;
 
 use super::{Footprint, MipLevel, MipPyramid};
@@ -120,7 +125,7 @@ impl Row {
 
 /// `exp(-2 q) - exp(-2)`, nothing from 1 on. By the eighth power of a series, which errs by less than 0.0001: whatever the
 /// machine, it is the same to the last bit.
-#[inline]
+#[inline(always)]
 pub(super) fn weight(q: f32) -> f32 {
     /// The same power at 1.
     const RIM: f32 = power(1.0);
@@ -128,7 +133,7 @@ pub(super) fn weight(q: f32) -> f32 {
 }
 
 /// `exp(-2 q)`.
-#[inline]
+#[inline(always)]
 const fn power(q: f32) -> f32 {
     let t = q * 0.25;
     let root = 1.0 - t * (1.0 - t * (0.5 - t * (1.0 / 6.0 - t * (1.0 / 24.0))));

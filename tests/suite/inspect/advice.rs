@@ -181,12 +181,8 @@ fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
     let mut unbiased = *own;
     unbiased.detail.bias = LodBias::default();
     all.extend([automatic, unbiased]);
-    all.extend(
-        LevelSampling::ALL[1..]
-            .iter()
-            .copied()
-            .map(|level_sampling| RenderSettings { level_sampling, ..*own }),
-    );
+    let levels = [LevelSampling::Linear, LevelSampling::Nearest];
+    all.extend(levels.map(|level_sampling| RenderSettings { level_sampling, ..*own }));
     for anisotropy in Anisotropy::STEPS.into_iter().filter(|taps| *taps > own.anisotropy) {
         all.push(RenderSettings { anisotropy, ..*own });
     }

@@ -3,7 +3,8 @@
 //!
 //! The groups: six patterns and each resolve space at five rates for each of the rules (`standard`, `course`, `float`), the
 //! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), cubic kernels and wraps
-//! (`kernels`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+//! (`kernels`), exact areas, textures averaged over areas, and smoothed pixels (`areas`), every visualisation (`visualised`), and what
+//! the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,7 +14,8 @@ use std::path::{Path, PathBuf};
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed, ShadingRate};
+use rasterscope::post::PostProcess;
+use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern, SampleRate, Seed, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
@@ -69,6 +71,7 @@ fn lines(path: &Path) -> String {
         .iter()
         .map(|rules| (rules.name().to_owned(), sampled(*rules)))
         .collect();
+    groups.push(("areas".to_owned(), areas()));
     groups.push(("filters".to_owned(), filtered()));
     groups.push(("kernels".to_owned(), kernels()));
     groups.push(("patterns".to_owned(), patterned()));
@@ -179,6 +182,38 @@ fn kernels() -> Vec<RenderSettings> {
                         ..RenderSettings::default()
                     });
                 }
+            }
+        }
+    }
+    all
+}
+
+/// Exact areas of pixels, areas of textures, and pixels that are smoothed afterwards, in each resolve space.
+fn areas() -> Vec<RenderSettings> {
+    let mut all = Vec::new();
+    for resolve in ResolveSpace::ALL {
+        for background in [Rgba::WHITE, Rgba::TRANSPARENT] {
+            let plain = RenderSettings {
+                resolve,
+                background,
+                ..RenderSettings::default()
+            };
+            all.push(RenderSettings {
+                coverage: PixelCoverage::Exact,
+                ..plain
+            });
+            all.push(RenderSettings {
+                post_process: PostProcess::Smaa,
+                ..plain
+            });
+            for level_sampling in [LevelSampling::Ewa, LevelSampling::SummedArea, LevelSampling::Ripmap] {
+                all.push(RenderSettings {
+                    sample_rate: SampleRate::new(4).expect("a square"),
+                    level_sampling,
+                    pyramid: resolve,
+                    texture_wrap: Wrap::Mirror,
+                    ..plain
+                });
             }
         }
     }

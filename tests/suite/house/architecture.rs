@@ -88,7 +88,7 @@ const ROOMS: &[Room] = &[
         rooms: &[
             "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
-        crates: &["rustfft"],
+        crates: &["fearless_simd", "rustfft"],
     },
     Room {
         name: "inspect",

@@ -89,7 +89,7 @@ fn study_scenes_show_where_areas_win_and_where_they_lose() {
 #[test]
 fn pixels_inside_shapes_are_those_of_one_sample() {
     // No neighbours share edges in these: along such edges there are seams.
-    for name in ["basic/test4.svg", "study/28_exact_greys.svg"] {
+    for name in ["basic/test4.svg", "study/30_exact_greys.svg"] {
         let scene = gallery(name);
         let [areas, one, many] = [exact(), sampled(1), sampled(64)].map(|settings| picture(&scene, &settings, SIZE));
         let row = SIZE[0] as usize;

@@ -23,6 +23,10 @@ pub(super) const SCENES: &[SceneFile] = &[
         make: checker_fan,
     },
     SceneFile {
+        path: "svg/study/32_checker_fan_turned.svg",
+        make: checker_fan_turned,
+    },
+    SceneFile {
         path: "svg/study/09_mip_lanes.svg",
         make: mip_lanes,
     },
@@ -154,6 +158,45 @@ fn checker_fan() -> String {
             "Level by area (lod-by area in the palette) keeps squares longer than linear alone, and they sparkle at one sample.",
         ],
     );
+    blades(&mut doc, |_, along, across| {
+        [
+            dvec2(0.0, 0.0),
+            dvec2(along, 0.0),
+            dvec2(along, across),
+            dvec2(0.0, across),
+        ]
+    });
+    doc.finish()
+}
+
+fn checker_fan_turned() -> String {
+    let mut doc = Document::new(
+        1000.0,
+        1000.0,
+        &[
+            "The fan of 08_checker_fan with the checker turned by 45 degrees on each blade (Ctrl+0): a pixel's footprint is a long",
+            "strip that lies askew in the texture. L: summed-area averages the whole upright box around that strip, and a ripmap, too,",
+            "can only halve rows and columns: both turn grey far too early. L: ewa averages the strip itself, and squares stay to be",
+            "seen across the blade. On 08_checker_fan, where strips lie along rows, the ripmap is as good, for less time.",
+        ],
+    );
+    blades(&mut doc, |piece, along, across| {
+        let corner = |x: f64, y: f64| dvec2(0.5, 0.5) + turned(dvec2(x * along, y * across) / 2.0, TAU / 8.0);
+        // Every other piece runs back, so that they join.
+        let from = if piece % 2 == 0 { -1.0 } else { 1.0 };
+        [
+            corner(from, -1.0),
+            corner(-from, -1.0),
+            corner(-from, 1.0),
+            corner(from, 1.0),
+        ]
+    });
+    doc.finish()
+}
+
+/// A fan of blades which squeeze the checker along their length more and more. `corners` tells where in the texture the corners
+/// of a piece lie, from its number and its length along the blade and across it.
+fn blades(doc: &mut Document, corners: impl Fn(u32, f64, f64) -> [DVec2; 4]) {
     doc.rect(DVec2::ZERO, dvec2(1000.0, 1000.0), Style::fill(PAPER));
     doc.texture("checker", "checker.png");
     let middle = dvec2(500.0, 500.0);
@@ -185,21 +228,11 @@ fn checker_fan() -> String {
                 place(x + length, half),
                 place(x, half),
             ];
-            doc.texture_quad(
-                "checker",
-                quad,
-                [
-                    dvec2(0.0, 0.0),
-                    dvec2(along, 0.0),
-                    dvec2(along, across),
-                    dvec2(0.0, across),
-                ],
-            );
+            doc.texture_quad("checker", quad, corners(piece, along, across));
         }
     }
     doc.polygon(&regular(middle, 92.0, 48, 0.0), Style::fill(NIGHT));
     doc.polygon(&regular(middle, 60.0, 48, 0.0), Style::fill(AMBER));
-    doc.finish()
 }
 
 fn mip_lanes() -> String {

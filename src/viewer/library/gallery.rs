@@ -101,6 +101,7 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/29_what_guesses_miss.svg",
     "study/30_exact_greys.svg",
     "study/31_seams_of_a_mesh.svg",
+    "study/32_checker_fan_turned.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

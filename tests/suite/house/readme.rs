@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use rasterscope::raster::{ResolveFilter, SamplePattern, ShadingRate};
+use rasterscope::post::PostProcess;
+use rasterscope::raster::{PixelCoverage, ResolveFilter, SamplePattern, ShadingRate};
 use rasterscope::render::Visualisation;
 use rasterscope::viewer::{commands, picture};
 
@@ -48,7 +49,9 @@ fn readme_measures_every_pattern_filter_and_shading_rate() {
                 .iter()
                 .skip(1)
                 .map(|shading| ("shading rate", shading.name())),
-        );
+        )
+        .chain([("coverage", PixelCoverage::Exact.name())])
+        .chain(PostProcess::ALL.iter().map(|process| ("post-process", process.name())));
     for (axis, name) in rows {
         let row = format!("| {axis} `{name}` | ");
         assert!(table.contains(&row), "{row} is missing: benches/study writes it");

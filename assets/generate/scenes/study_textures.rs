@@ -176,8 +176,9 @@ fn checker_fan_turned() -> String {
         &[
             "The fan of 08_checker_fan with the checker turned by 45 degrees on each blade (Ctrl+0): a pixel's footprint is a long",
             "strip that lies askew in the texture. L: summed-area averages the whole upright box around that strip, and a ripmap, too,",
-            "can only halve rows and columns: both turn grey far too early. L: ewa averages the strip itself, and squares stay to be",
-            "seen across the blade. On 08_checker_fan, where strips lie along rows, the ripmap is as good, for less time.",
+            "can only halve rows and columns: both turn grey far too early. L: ewa averages the strip itself, and what is left of the",
+            "squares, stripes along each blade, stays. On 08_checker_fan, where strips lie along rows, the ripmap is nearly as good,",
+            "for less time.",
         ],
     );
     blades(&mut doc, |piece, along, across| {

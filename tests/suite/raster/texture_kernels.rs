@@ -85,6 +85,30 @@ fn told(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) -> String {
 }
 
 #[test]
+fn ellipses_win_where_footprints_lie_askew() {
+    let errors = |name: &str| {
+        let scene = scene(name);
+        let with = |level_sampling| RenderSettings {
+            level_sampling,
+            ..with(PixelSampling::Bilinear)
+        };
+        let truth = picture(&scene, &with(LevelSampling::Zero).truth());
+        [LevelSampling::Ewa, LevelSampling::SummedArea, LevelSampling::Ripmap]
+            .map(|level| rmse(&picture(&scene, &with(level)), &truth))
+    };
+    let [ewa, summed, ripmap] = errors("study/32_checker_fan_turned.svg");
+    assert!(
+        ewa < 0.75 * summed.min(ripmap),
+        "upright boxes do not fit: {ewa}, {summed}, {ripmap}"
+    );
+    let [ewa, summed, ripmap] = errors("study/08_checker_fan.svg");
+    assert!(
+        ewa > 0.8 * summed.max(ripmap),
+        "upright boxes fit as well: {ewa}, {summed}, {ripmap}"
+    );
+}
+
+#[test]
 fn kernels_win_where_few_texels_are_left_of_a_picture() {
     let scene = scene("study/25_few_texels.svg");
     let truth = picture(&scene, &with(PixelSampling::Bilinear).truth());

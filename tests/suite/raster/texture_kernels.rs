@@ -6,7 +6,7 @@ use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{RenderSettings, Subject};
 use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
-use rasterscope::texture::{FixedLevel, LevelOfDetail, PixelSampling, Wrap};
+use rasterscope::texture::{FixedLevel, LevelOfDetail, LevelSampling, PixelSampling, Wrap};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::scenes::{at_rate, drawn};

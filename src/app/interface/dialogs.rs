@@ -416,7 +416,7 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
                 area.show(ui, |ui| {
                     way = start::ways(ui, viewer, columns);
                     ui.add_space(8.0);
-                    let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
+                    let (left, right) = Group::ALL.split_at(if columns == 2 { 4 } else { Group::ALL.len() });
                     ui.columns(columns, |columns| {
                         for group in left {
                             help_group(&mut columns[0], *group);

@@ -301,8 +301,10 @@ fn lists_lie_beside_the_lists_that_they_open_from() {
         }
         session.settle();
         let scale = f64::from(session.scale());
-        for name in ["Sample rate", "Pattern", "Pixel sampling", "Level sampling", "Filter"] {
-            for step in ["Menu", Group::Sampling.name(), name] {
+        let of_samples = ["Sample rate", "Pattern", "Filter"].map(|name| (Group::Sampling, name));
+        let of_textures = ["Pixel sampling", "Level sampling"].map(|name| (Group::Textures, name));
+        for (group, name) in of_samples.into_iter().chain(of_textures) {
+            for step in ["Menu", group.name(), name] {
                 let at = place_of(&mut session, step) * scale;
                 click(&mut session, at);
                 session.settle();

@@ -42,7 +42,8 @@ pub fn all() -> &'static [CommandSpec] {
 /// The lines of a setting.
 fn of_setting(setting: &'static PictureSetting) -> impl Iterator<Item = CommandSpec> {
     let group = match setting.about {
-        About::Samples | About::Textures => Group::Sampling,
+        About::Samples => Group::Sampling,
+        About::Textures => Group::Textures,
         About::Document => Group::Scenes,
     };
     setting.commands.iter().map(move |command| CommandSpec {

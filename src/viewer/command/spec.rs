@@ -33,6 +33,8 @@ pub enum Group {
     View,
     /// How samples become pixels.
     Sampling,
+    /// How textures are read.
+    Textures,
     /// A against B.
     Compare,
     /// Which document.
@@ -60,9 +62,10 @@ pub enum Action {
 
 impl Group {
     /// Every heading, in the order of help and menus.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::View,
         Self::Sampling,
+        Self::Textures,
         Self::Compare,
         Self::Scenes,
         Self::Inspector,
@@ -75,6 +78,7 @@ impl Group {
         match self {
             Self::View => "View",
             Self::Sampling => "Sampling",
+            Self::Textures => "Textures",
             Self::Compare => "A against B",
             Self::Scenes => "Scenes",
             Self::Inspector => "Pixel inspector",

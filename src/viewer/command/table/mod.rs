@@ -15,6 +15,8 @@ pub(super) fn of(group: Group) -> &'static [CommandSpec] {
     match group {
         Group::View => view::VIEW,
         Group::Sampling => sampling::SAMPLING,
+        // Settings only.
+        Group::Textures => &[],
         Group::Compare => compare::COMPARE,
         Group::Scenes => scenes::SCENES,
         Group::Inspector => inspector::INSPECTOR,

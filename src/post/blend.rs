@@ -2,7 +2,7 @@
 
 use super::areas::ONE;
 use super::weights::Weights;
-use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
+use crate::color::{Premultiplied16, ResolveSpace, Rgba, WeightedSum};
 use crate::rules::Rules;
 
 /// In which values pixels are blended, and how these become bytes.
@@ -73,7 +73,11 @@ impl Blend {
         let mut sum = WeightedSum::default();
         for (weight, pixel) in self.shares().into_iter().zip([own, neighbours[0], neighbours[1]]) {
             let [a, r, g, b] = pixel.to_be_bytes();
-            sum.add(weight, values.space.parts(Premultiplied16::from_bytes([r, g, b, a])));
+            let color = match a {
+                255 => Premultiplied16::from_bytes([r, g, b, a]),
+                _ => Premultiplied16::from_straight(Rgba::from_bytes([r, g, b, a]), Rules::Standard),
+            };
+            sum.add(weight, values.space.parts(color));
         }
         values.space.weighted_pixel(sum, values.rules)
     }

@@ -35,6 +35,14 @@ fn smoothed(samples: u32) -> RenderSettings {
 #[test]
 fn smaa_agrees_with_its_definition() {
     let mut changed = 0;
+    // However slow the machine is.
+    while changed < 500 {
+        agrees(&mut changed);
+    }
+}
+
+/// Compares random pictures, and counts the pixels that change.
+fn agrees(changed: &mut usize) {
     arbtest::arbtest(|u| {
         const SIDE: usize = 40;
         // Runs of few colours, each row much like the one above: all patterns come, and long ones.
@@ -84,11 +92,10 @@ fn smaa_agrees_with_its_definition() {
                 "{x}, {y}: {found:08X} for {expected:?}, {space:?}"
             );
         }
-        changed += pixels.iter().zip(&found).filter(|(a, b)| a != b).count();
+        *changed += pixels.iter().zip(&found).filter(|(a, b)| a != b).count();
         Ok(())
     })
-    .budget_ms(1200);
-    assert!(changed > 500, "only {changed} pixels changed");
+    .budget_ms(1000);
 }
 
 #[test]

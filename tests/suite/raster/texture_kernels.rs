@@ -3,7 +3,7 @@
 
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
-use rasterscope::raster::Framebuffer;
+use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, Subject};
 use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
 use rasterscope::texture::{FixedLevel, LevelOfDetail, LevelSampling, PixelSampling, Wrap};
@@ -90,6 +90,7 @@ fn ellipses_win_where_footprints_lie_askew() {
         let scene = scene(name);
         let with = |level_sampling| RenderSettings {
             level_sampling,
+            sample_rate: SampleRate::ONE,
             ..with(PixelSampling::Bilinear)
         };
         let truth = picture(&scene, &with(LevelSampling::Zero).truth());

@@ -11,9 +11,10 @@ use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::by_area::AreaQueue;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
-use crate::raster::paint::shade_once::OnceQueue;
+use crate::raster::paint::shade_once::{OnceQueue, merge_parts};
 use crate::raster::paint::wide::{WeighedPixels, WideResolve};
 use crate::raster::sampling::positions::{Position, SamplePositions};
+use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
 use crate::raster::span::{Span, SpanRect};
@@ -211,17 +212,27 @@ impl<'a> PerSamplePainter<'a> {
     ) {
         let rect = self.layers.base().rect;
         let (mut prepared, mut painted) = (None, SpanRect::EMPTY);
-        shape_coverage.each(shape, rect, |y, covered| {
+        let mut visit = |this: &mut Self, y: i32, covered: Covered| {
             painted = painted.union(covered.pixels(y));
-            let shader = prepared.get_or_insert_with(|| shader(&self.once.at_centres()));
+            let shader = prepared.get_or_insert_with(|| shader(&this.once.at_centres()));
             if let Some(color) = shader.constant() {
-                return self.fill(y, covered, color);
+                return this.fill(y, covered, color);
             }
-            let place = self.once.note(rect, (y, covered), &self.positions, shader.is_level());
-            if let Some(recorder) = &mut self.recorder {
+            let place = this.once.note(rect, (y, covered), &this.positions, shader.is_level());
+            if let Some(recorder) = &mut this.recorder {
                 recorder.shaded_at(place);
             }
-        });
+        };
+        if self.context.shading == ShadingRate::Centroid {
+            // A pixel may come several times, but has one centroid.
+            let mut found = std::mem::take(&mut self.covered);
+            shape_coverage.each(shape, rect, |y, covered| found.push((y, covered)));
+            merge_parts(&mut found, self.positions.count());
+            found.drain(..).for_each(|(y, covered)| visit(self, y, covered));
+            self.covered = found;
+        } else {
+            shape_coverage.each(shape, rect, |y, covered| visit(self, y, covered));
+        }
         self.layers.top().note_painted(painted.intersection(rect));
         if let Some(at_centre) = prepared {
             self.samples_shaded += self.once.shade([rect.x.start, rect.y.start], &at_centre, shader);

@@ -10,7 +10,7 @@ use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
 use crate::raster::shading::once::ShadingPlace;
-use crate::raster::span::SpanRect;
+use crate::raster::span::{Span, SpanRect};
 
 /// What waits to be shaded of one primitive in a tile.
 #[derive(Debug)]
@@ -145,6 +145,30 @@ impl<'a> OnceQueue<'a> {
     }
 }
 
+/// Makes one of all parts of the same pixel, which come apart where a row of samples has several spans of an outline; pixels have so
+/// many samples.
+pub(super) fn merge_parts(found: &mut Vec<(i32, Covered)>, samples: usize) {
+    let pixel = |(y, covered): &(i32, Covered)| match covered {
+        Covered::Part(x, _) => (*y, *x),
+        Covered::Whole(xs) => (*y, xs.start),
+    };
+    found.sort_unstable_by_key(pixel);
+    found.dedup_by(|(next_y, next), (y, kept)| match (next, kept) {
+        (Covered::Part(next_x, next), Covered::Part(x, kept)) if (*next_y, *next_x) == (*y, *x) => {
+            kept.merge(next);
+            true
+        }
+        _ => false,
+    });
+    for (_, covered) in found {
+        if let Covered::Part(x, mask) = covered
+            && mask.count() == samples
+        {
+            *covered = Covered::Whole(Span { start: *x, end: *x + 1 });
+        }
+    }
+}
+
 /// A place in a pixel, on its grid, from the first pixel of a tile on.
 fn point(tile: SpanRect, place: ShadingPlace, [x, y]: [i32; 2]) -> [u16; 2] {
     let from_tile = [x - tile.x.start, y - tile.y.start];
@@ -162,5 +186,27 @@ impl Places {
         shader.points(context.samples_from(origin), points, colors);
         points.clear();
         colors.len() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_pixel_become_one_and_all_samples_a_whole_pixel() {
+        let part = |y, x, bits| (y, Covered::Part(x, SampleMask::of_bits(bits)));
+        let whole = |y, start, end| (y, Covered::Whole(Span { start, end }));
+        let mut found = vec![
+            part(3, 5, 0b0001),
+            part(3, 6, 0b0011),
+            whole(3, 7, 9),
+            part(3, 5, 0b0100),
+            part(3, 6, 0b1100),
+            part(4, 5, 0b1000),
+        ];
+        merge_parts(&mut found, 4);
+        let expected = [part(3, 5, 0b0101), whole(3, 6, 7), whole(3, 7, 9), part(4, 5, 0b1000)];
+        assert_eq!(found, expected, "each pixel once");
     }
 }

@@ -38,6 +38,14 @@ impl SampleMask {
         }
     }
 
+    /// Adds the samples of another.
+    #[inline]
+    pub(crate) fn merge(&mut self, other: &Self) {
+        for (word, other) in self.0.iter_mut().zip(other.0) {
+            *word |= other;
+        }
+    }
+
     /// The bits of the first 64 samples.
     #[inline]
     pub(crate) fn low(&self) -> u64 {

@@ -382,7 +382,8 @@ fn sample_color(
             Step::Triangle(triangle) if settings.coverage == PixelCoverage::Exact => {
                 let [a, b, c] = triangle.corners;
                 let area = areas::in_pixel(&[[a, b], [b, c], [c, a]], FillRule::NonZero, pixel.at);
-                if area > 0.0 {
+                // A line encloses nothing, but for rounding, and has no colour.
+                if triangle.edges(sample).0 != 0 && area > 0.0 {
                     let above = triangle.color(scene, settings, sample, pixel);
                     let below = layers.last_mut().expect("the base");
                     *below = covered(*below, above, area, settings.resolve);

@@ -2,12 +2,10 @@
 //!
 //! Texels stand where the standard rules say, whatever the rules: the course's know none of these filters.
 
-use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::area::TexelBox;
-use super::ewa_filter::{EwaFilter, Weights};
-use super::ewa_sums::{self, LANES, SharedWeights};
+use super::ewa_filter::{EwaFilter, LANES, RowTexels};
 use super::filter_plan::Plan;
 use super::fixed_point::MASS;
 use super::pyramid::NumberedLevel;
@@ -66,6 +64,7 @@ impl<'a> AreaFilter<'a> {
                     level: &levels[ellipse.level],
                     wrap: settings.wrap,
                     ellipse,
+                    is_opaque: pyramid.is_opaque(),
                 },
             },
             Area::Box(area) => Kind::Summed {
@@ -99,9 +98,18 @@ impl<'a> AreaFilter<'a> {
             }
             Kind::Ewa { place, filter } => {
                 let plan = place.plan(grid);
-                let mut weights = Weights::default();
-                for (point, out) in points.iter().zip(out) {
-                    *out = filter.color(at(&plan, *point), &mut weights);
+                let (mut row, mut places) = (RowTexels::new(), Vec::new());
+                let side = u16::try_from(grid.side).unwrap_or(1).max(1);
+                let pixel = |point: &[u16; 2]| point.map(|at| at / side);
+                let mut rest = out;
+                for samples in points.chunk_by(|a, b| pixel(a) == pixel(b)) {
+                    places.clear();
+                    places.extend(samples.iter().map(|point| at(&plan, *point)));
+                    let (colors, others) = rest.split_at_mut(samples.len());
+                    rest = others;
+                    for (places, colors) in places.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+                        filter.colors(simd, places, &mut row, colors);
+                    }
                 }
             }
             Kind::Summed { place, read } => {
@@ -137,17 +145,18 @@ impl<'a> AreaFilter<'a> {
         }
         let (Kind::Ewa { place, .. } | Kind::Summed { place, .. } | Kind::Ripmap { upper: place, .. }) = &self.0;
         let plan = place.plan(grid);
-        let mut memory = (SharedWeights::default(), Weights::default());
+        let mut row = RowTexels::new();
         let mut inside = Vec::new();
         for (i, (pixel, sum)) in list.pixels.iter().zip(sums).enumerate() {
-            let samples = covered(grid.side, *pixel, list.masks.map(|masks| masks[i]));
             inside.clear();
-            inside.extend(samples.map(|sample| at(&plan, sample)));
+            each_covered(grid.side, *pixel, list.masks.map(|masks| masks[i]), |sample| {
+                inside.push(at(&plan, sample));
+            });
             *sum = [0; 4];
             match &self.0 {
                 Kind::Ewa { filter, .. } => {
                     for samples in inside.chunks(LANES) {
-                        add_weighed(simd, filter, samples, &mut memory, sum);
+                        filter.add(simd, samples, &mut row, sum);
                     }
                 }
                 Kind::Summed { read, .. } => inside.iter().for_each(|at| add(sum, read.color(*at))),
@@ -157,29 +166,18 @@ impl<'a> AreaFilter<'a> {
     }
 }
 
-/// The samples of a pixel that take part.
-fn covered(side: u32, pixel: [u16; 2], mask: Option<u64>) -> impl Iterator<Item = [u16; 2]> {
+/// Calls `visit` with the samples of a pixel that take part.
+#[inline]
+fn each_covered(side: u32, pixel: [u16; 2], mask: Option<u64>, mut visit: impl FnMut([u16; 2])) {
     let side = u16::try_from(side).unwrap_or(1);
-    let corner = pixel.map(|at| at.saturating_mul(side));
-    let all = (0..side).flat_map(move |y| (0..side).map(move |x| [corner[0] + x, corner[1] + y]));
-    let takes_part = move |j: u32| mask.is_none_or(|mask| j < u64::BITS && mask >> j & 1 == 1);
-    (0..)
-        .zip(all)
-        .filter(move |(j, _)| takes_part(*j))
-        .map(|(_, sample)| sample)
-}
-
-/// Adds the colours of some samples of a pixel: together, or one by one where they lie far apart.
-fn add_weighed(
-    simd: Level,
-    filter: &EwaFilter<'_>,
-    samples: &[DVec2],
-    (shared, single): &mut (SharedWeights, Weights),
-    sum: &mut [u32; 4],
-) {
-    if !dispatch!(simd, _ => ewa_sums::add(filter, samples, shared, sum)) {
-        for at in samples {
-            add(sum, filter.color(*at, single));
+    let [left, top] = pixel.map(|at| at.saturating_mul(side));
+    let mut number = 0;
+    for y in top..top.saturating_add(side) {
+        for x in left..left.saturating_add(side) {
+            if mask.is_none_or(|mask| number < u64::BITS && mask >> number & 1 == 1) {
+                visit([x, y]);
+            }
+            number += 1;
         }
     }
 }

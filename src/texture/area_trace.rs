@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::area_filter::{AreaFilter, Kind, Summed, at};
-use super::ewa_filter::{EwaFilter, WHOLE, Weights};
+use super::ewa_filter::EwaFilter;
 use super::fixed_point::MASS;
 use super::{SampleGrid, TapRead, TexelRead, TextureReads};
 
@@ -36,16 +36,14 @@ impl AreaFilter<'_> {
 impl EwaFilter<'_> {
     fn reads(&self, level: usize, at: DVec2) -> TextureReads {
         let mut texels = Vec::new();
-        self.each(at, &mut Weights::default(), |([x, y], color), weight| {
-            if weight != 0 {
-                let inside = |at: i32, side: u32| self.wrap.texel(at, side).cast_unsigned();
-                texels.push(TexelRead {
-                    level,
-                    at: [inside(x, self.level.width()), inside(y, self.level.height())],
-                    color,
-                    weight: f64::from(weight) / f64::from(WHOLE),
-                });
-            }
+        self.each(at, |[x, y], weight| {
+            let inside = |at: i32, side: u32| self.wrap.texel(at, side).cast_unsigned();
+            texels.push(TexelRead {
+                level,
+                at: [inside(x, self.level.width()), inside(y, self.level.height())],
+                color: self.level.wrapped(self.wrap, [x, y]),
+                weight,
+            });
         });
         let reads = TextureReads {
             texels,

@@ -10,19 +10,20 @@
 //!      . o o . .        a texel weighs exp(-2 q) - exp(-2), where q is 0 in the middle and 1 at the rim
 //! ```
 
-#![expect(
-    clippy::inline_always,
-    reason = "a function that is not inlined into its dispatch loses the vector instructions"
-)]
-
 use glam::DVec2;
 
 use super::{Footprint, MipLevel, MipPyramid};
 
-/// How many times as long as wide an ellipse counts at most: a thinner one is widened. So few texels weigh that time is bounded.
-const MOST_ECCENTRIC: f64 = 16.0;
+/// How many times as long as wide an ellipse counts at most, which is what Pharr, Jakob and Humphreys take: a thinner one is
+/// widened. So few texels weigh that time is bounded.
+const MOST_ECCENTRIC: f64 = 8.0;
+/// The shorter half axis of a footprint has so many texels of its level, up to twice as many.
+const SHORTEST: f64 = 1.0;
 /// The longest half axis, in texels, before the circle of a texel is added; longer ones occur at the last level only.
-const LONGEST: f64 = 2.0 * MOST_ECCENTRIC;
+const LONGEST: f64 = 2.0 * SHORTEST * MOST_ECCENTRIC;
+/// What to multiply the powers of `e = 1 - q` by, from the first on, for their sum to be `exp(-2 q) - exp(-2)`: by Chebyshev
+/// interpolation of what is left of it when `e` is divided by; it errs by less than 0.001.
+pub(super) const SERIES: [f32; 4] = [0.270_098_33, 0.288_809_73, 0.094_357_716, 0.210_595_3];
 
 /// An ellipse on a level, about the point that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,28 +44,27 @@ struct Moments {
     yy: f64,
 }
 
-/// The texels of a row under an ellipse, and what they weigh.
+/// Where a point lies in an ellipse about another: `q` is `dy dy down + (dx - dy lean)^2 growth`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
-    /// The first column, and the one after the last.
-    pub(super) columns: [i32; 2],
-    /// Where the row is nearest to the middle.
-    nearest: f64,
-    /// `q` there, and what it grows by with the square of the distance from it.
-    least: f64,
-    growth: f64,
+pub(super) struct Quadratic {
+    /// What `q` is at least, by the square of the distance from the middle's row.
+    pub(super) down: f32,
+    /// How far beside the middle it is least, by that distance.
+    pub(super) lean: f32,
+    /// What it grows by with the square of the distance from there.
+    pub(super) growth: f32,
 }
 
 impl Ellipse {
-    /// That of a footprint on a pyramid, and the level of detail, which is that of its minor axis. A footprint that is not
-    /// finite is a circle of one pixel at the last level.
+    /// That of a footprint on a pyramid, and the level of detail, of which the whole part is the level: at 0 the minor half axis is
+    /// [`SHORTEST`]. A footprint that is not finite is a circle of one pixel at the last level.
     pub(super) fn new(footprint: &Footprint, pyramid: &MipPyramid) -> (Self, f64) {
         let size = |level: &MipLevel| DVec2::new(f64::from(level.width()), f64::from(level.height()));
         let levels = pyramid.levels();
         let of = |level: usize| Moments::new(footprint, size(&levels[level])).widened();
         let [_, minor] = of(0).squares();
         let lod = if minor.is_finite() {
-            0.5 * minor.log2()
+            0.5 * (minor / (SHORTEST * SHORTEST)).log2()
         } else {
             f64::INFINITY
         };
@@ -76,70 +76,46 @@ impl Ellipse {
         (Self { level, axes, moments }, lod)
     }
 
-    /// Half its width and half its height.
     #[inline]
-    pub(super) fn half(&self) -> DVec2 {
-        DVec2::new(self.moments.xx.sqrt(), self.moments.yy.sqrt())
-    }
-
-    /// Of a row that is `d` below the middle: `q` is `d d` times the first where it is least, which is `d` times the second beside
-    /// the middle, and grows from there by the third times the square of the distance.
-    #[inline]
-    pub(super) fn factors(&self) -> [f64; 3] {
+    pub(super) fn quadratic(&self) -> Quadratic {
         let Moments { xx, xy, yy } = self.moments;
-        [1.0 / yy, xy / yy, yy / (xx * yy - xy * xy)]
-    }
-
-    /// The rows of texels under it about a point, whose whole coordinates are centres of texels.
-    #[inline]
-    pub(super) fn rows(&self, at: DVec2) -> std::ops::RangeInclusive<i32> {
-        let half = self.half().y;
-        near((at.y - half).ceil())..=near((at.y + half).floor())
-    }
-
-    /// A row.
-    #[inline]
-    pub(super) fn row(&self, at: DVec2, y: i32) -> Row {
-        let [down, lean, growth] = self.factors();
-        let below = f64::from(y) - at.y;
-        let least = below * below * down;
-        let nearest = at.x + below * lean;
-        let half = ((1.0 - least).max(0.0) / growth).sqrt();
-        Row {
-            columns: [near((nearest - half).ceil()), near((nearest + half).floor()) + 1],
-            nearest,
-            least,
-            growth,
+        Quadratic {
+            down: narrow(1.0 / yy),
+            lean: narrow(xy / yy),
+            growth: narrow(yy / (xx * yy - xy * xy)),
         }
     }
 }
 
-impl Row {
-    /// What the texel in a column weighs, not yet divided by the sum of all; nothing beyond the rim.
+impl Quadratic {
+    /// `1 - q` at a place relative to the middle, in texels: nothing at the rim, and less beyond.
     #[inline]
-    pub(super) fn weight(&self, column: i32) -> f32 {
-        let beside = f64::from(column) - self.nearest;
-        weight(narrow(self.least + self.growth * beside * beside))
+    pub(super) fn within(self, [right, below]: [f32; 2]) -> f32 {
+        let beside = right - below * self.lean;
+        (1.0 - below * below * self.down) - beside * beside * self.growth
+    }
+
+    /// Half the height of the ellipse.
+    #[inline]
+    pub(super) fn half_height(self) -> f32 {
+        self.down.sqrt().recip()
+    }
+
+    /// The middle, to the right of the ellipse's own, and half the length of what a row so far below it holds of an ellipse that is
+    /// `times` as large.
+    #[inline]
+    pub(super) fn chord(self, below: f32, times: f32) -> (f32, f32) {
+        let rest = (times * times - below * below * self.down).max(0.0);
+        (below * self.lean, (rest / self.growth).sqrt())
     }
 }
 
-/// `exp(-2 q) - exp(-2)`, nothing from 1 on. By the eighth power of a series, which errs by less than 0.0001: whatever the
-/// machine, it is the same to the last bit.
-#[inline(always)]
-pub(super) fn weight(q: f32) -> f32 {
-    /// The same power at 1.
-    const RIM: f32 = power(1.0);
-    (power(q.min(1.0)) - RIM).max(0.0)
-}
-
-/// `exp(-2 q)`.
-#[inline(always)]
-const fn power(q: f32) -> f32 {
-    let t = q * 0.25;
-    let root = 1.0 - t * (1.0 - t * (0.5 - t * (1.0 / 6.0 - t * (1.0 / 24.0))));
-    let square = root * root;
-    let fourth = square * square;
-    fourth * fourth
+/// What a texel weighs by its `1 - q`, not yet divided by the sum of all.
+#[inline]
+pub(super) fn weight(within: f32) -> f32 {
+    let [a, b, c, d] = SERIES;
+    let within = within.max(0.0);
+    within * (within * (within * (within * d + c) + b) + a)
 }
 
 impl Moments {
@@ -196,16 +172,6 @@ impl Moments {
     }
 }
 
-/// A column or a row near a level; see `fixed_point::REACH`.
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates, and points lie near their level"
-)]
-fn near(at: f64) -> i32 {
-    at as i32
-}
-
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -216,7 +182,7 @@ fn whole(lod: f64) -> usize {
 }
 
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "weights are 32-bit floats")]
-fn narrow(q: f64) -> f32 {
-    q as f32
+#[expect(clippy::cast_possible_truncation, reason = "weights are found in 32-bit floats")]
+fn narrow(at: f64) -> f32 {
+    at as f32
 }

@@ -13,7 +13,6 @@ mod decode;
 mod detail_settings;
 mod ellipse;
 mod ewa_filter;
-mod ewa_sums;
 mod filter;
 mod filter_plan;
 mod fixed_point;

@@ -167,7 +167,7 @@ impl MipLevel {
     }
 
     /// A row, counted from the top.
-    fn row(&self, y: usize) -> &[[u8; 4]] {
+    pub(super) fn row(&self, y: usize) -> &[[u8; 4]] {
         &self.texels[y * self.stride as usize..][..self.width as usize]
     }
 

@@ -45,7 +45,7 @@ fn size(level: &MipLevel) -> DVec2 {
     DVec2::new(f64::from(level.width()), f64::from(level.height()))
 }
 
-/// How long and wide the ellipse of two steps is, of which the shorter is at least a sixteenth.
+/// How long and wide the ellipse of two steps is, of which the shorter is at least an eighth.
 fn axes([right, down]: [DVec2; 2]) -> [f64; 2] {
     let area = right.perp_dot(down).abs();
     let (sum, difference) = (
@@ -55,7 +55,7 @@ fn axes([right, down]: [DVec2; 2]) -> [f64; 2] {
             .sqrt(),
     );
     let long = f64::midpoint(sum, difference);
-    [long, (area / long).max(long / 16.0)]
+    [long, (area / long).max(long / 8.0)]
 }
 
 fn texel(level: &MipLevel, [x, y]: [i64; 2], wrap: Wrap) -> Color {
@@ -75,7 +75,7 @@ fn texel(level: &MipLevel, [x, y]: [i64; 2], wrap: Wrap) -> Color {
 
 /// Every texel under the ellipse by the Gaussian: the pixel's circle, and a circle of one texel.
 fn ellipse(level: &MipLevel, uv: DVec2, steps: [DVec2; 2], wrap: Wrap) -> Color {
-    let [long, short] = axes(steps).map(|axis| axis.min(32.0));
+    let [long, short] = axes(steps).map(|axis| axis.min(16.0));
     // The direction in which a turning step is longest.
     let [right, down] = steps;
     let doubled = (2.0 * right.dot(down)).atan2(right.length_squared() - down.length_squared());

@@ -29,7 +29,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "What is done to the finished pixels: nothing, or morphological antialiasing (SMAA)",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("", "Post-process", Control::ShortList)),
+        panel: Some(PanelRow::new("", "Post-process of finished pixels", Control::ShortList)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,

@@ -127,7 +127,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "Where colours are computed: at every sample, or once per primitive and pixel, in the pixel's centre or in the centroid of the covered samples",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("Shading", "Shading rate", Control::List)),
+        panel: Some(PanelRow::new("Shading", "Shading rate of primitives", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -144,7 +144,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "What tells how much of a pixel a primitive covers: its samples, or its exact area, composited source-over as renderers of vector graphics do",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("", "Coverage", Control::List)),
+        panel: Some(PanelRow::new("", "Coverage of pixels", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,

@@ -49,7 +49,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "Which mip levels of a texture are read, or by what its area is weighed",
         about: About::Textures,
         told: Told::Always,
-        panel: Some(PanelRow::new("Level", "Level sampling", Control::List)),
+        panel: Some(PanelRow::new("Level", "Level sampling of textures", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,

@@ -4,10 +4,10 @@
 //! Morphological Antialiasing", Computer Graphics Forum 31 (2), Eurographics 2012; with the values of the preset "high" of its
 //! reference code: threshold 0.1, 16 search steps of two pixels, 8 diagonal ones, corners rounded by 25 %. In three steps:
 //!
-//! 1. [`edges`]: where the luma of neighbours differs, and nothing beside differs twice as much.
-//! 2. [`lines`] and [`diagonals`]: how far each edge goes on, and how it ends. From that, [`areas`] guess the line that was
+//! 1. `edges`: where the luma of neighbours differs, and nothing beside differs twice as much.
+//! 2. `lines` and `diagonals`: how far each edge goes on, and how it ends. From that, `areas` guess the line that was
 //!    drawn, and which part of the pixel lies on its other side.
-//! 3. [`blend`]: pixels take that part of their neighbour's colour.
+//! 3. `blend`: pixels take that part of their neighbour's colour.
 //!
 //! It differs from the reference code where that is bound to textures: areas are computed, not read from a table of bytes;
 //! searches go from pixel to pixel; lines end at the frame's border. Games blend in linear light; here that is done in the

@@ -327,10 +327,15 @@ impl Texture {
 
     /// How it is read inside a level.
     fn sampling_words(&self) -> String {
-        match self.pixel_sampling {
-            own @ ("nearest" | "bilinear") => own.to_owned(),
-            cubic => format!("by the cubic kernel {cubic}"),
-        }
+        let own = match (&self.area, self.pixel_sampling) {
+            // These ask for no pixel sampling.
+            (Some(AreaUse::Ellipse { .. }), _) => return "by a Gaussian over an ellipse".to_owned(),
+            (Some(AreaUse::Box { .. }), _) => return "as the mean of a box".to_owned(),
+            (_, own @ ("nearest" | "bilinear")) => own.to_owned(),
+            (_, cubic) => format!("by the cubic kernel {cubic}"),
+        };
+        let asked = if self.asked { " as image-rendering asks" } else { "" };
+        own + asked
     }
 
     pub(super) fn lines(&self) -> Vec<String> {
@@ -340,10 +345,9 @@ impl Texture {
         let [long, wide] = self.footprint();
         let mut lines = vec![
             format!(
-                "texture {} of {width} x {height} texels, read {}{}{}",
+                "texture {} of {width} x {height} texels, read {}{}",
                 self.name,
                 self.sampling_words(),
-                if self.asked { " as image-rendering asks" } else { "" },
                 self.wrap_words()
             ),
             format!(

@@ -85,6 +85,24 @@ fn told(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) -> String {
 }
 
 #[test]
+fn areas_are_told_instead_of_the_pixel_sampling_that_they_do_not_ask_for() {
+    let scene = scene("study/08_checker_fan.svg");
+    for (level_sampling, read) in [
+        (LevelSampling::Ewa, "read by a Gaussian over an ellipse"),
+        (LevelSampling::SummedArea, "read as the mean of a box"),
+        (LevelSampling::Ripmap, "read bilinear"),
+    ] {
+        let settings = RenderSettings {
+            level_sampling,
+            ..with(PixelSampling::Bilinear)
+        };
+        let pixel = [SIZE[0] / 8, SIZE[1] / 2];
+        let text = words(&explained(&scene, &settings, pixel));
+        assert!(text.contains(read), "{level_sampling:?}: {text}");
+    }
+}
+
+#[test]
 fn ellipses_win_where_footprints_lie_askew() {
     let errors = |name: &str| {
         let scene = scene(name);

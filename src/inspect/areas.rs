@@ -11,6 +11,14 @@ const OPAQUE: f64 = 254.99;
 /// Neighbours in one pixel that are compared with each other at most.
 const MOST_NEIGHBOURS: usize = 8;
 
+/// What shows in a pixel of one colour, each `0.0..=1.0` of it.
+pub(super) struct AreaShares {
+    /// The paints that show, by number, from the topmost down.
+    paints: Vec<(usize, f64)>,
+    /// What is below all of them.
+    pub(super) background: f64,
+}
+
 /// The primitives that cover a pixel together, each a part of it that no other covers.
 pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<Conflation> {
     let mut parts: Vec<usize> = Vec::new();
@@ -49,22 +57,37 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
 }
 
 impl Explanation {
-    /// What shows, by how much of it, where a pixel holds one colour: in one sentence.
-    pub(super) fn area_words(&self) -> String {
+    /// What shows by how much of a pixel that holds one colour; `None` where layers mix what paints it.
+    pub(super) fn area_shares(&self) -> Option<AreaShares> {
         if self.paints.iter().any(|paint| paint.shape.is_layer_mark()) {
-            return "It holds one colour, made of all that paints it; nothing tells which part shows what.".to_owned();
+            return None;
         }
-        let mut rest = 1.0;
-        let mut shares = Vec::new();
+        let mut background = 1.0;
+        let mut paints = Vec::new();
         for (number, paint) in self.paints.iter().enumerate().rev() {
-            let share = rest * paint.covered.unwrap_or(1.0) * paint.alpha() / 255.0;
-            rest -= share;
+            let share = background * paint.covered.unwrap_or(1.0) * paint.alpha() / 255.0;
+            background -= share;
             if share >= NOTHING {
-                shares.push(format!("{} of {} ({})", percent(share), number + 1, paint.name()));
+                paints.push((number, share));
             }
         }
-        if rest >= NOTHING || shares.is_empty() {
-            shares.push(format!("{} of the background", percent(rest)));
+        Some(AreaShares { paints, background })
+    }
+
+    /// The same in one sentence.
+    pub(super) fn area_words(&self) -> String {
+        let Some(AreaShares { paints, background }) = self.area_shares() else {
+            return "It holds one colour, made of all that paints it; nothing tells which part shows what.".to_owned();
+        };
+        let mut shares: Vec<String> = paints
+            .iter()
+            .filter_map(|(number, share)| {
+                let paint = self.paints.get(*number)?;
+                Some(format!("{} of {} ({})", percent(*share), number + 1, paint.name()))
+            })
+            .collect();
+        if background >= NOTHING || shares.is_empty() {
+            shares.push(format!("{} of the background", percent(background)));
         }
         format!("It holds one colour: {}.", shares.join(", "))
     }

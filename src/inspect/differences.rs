@@ -32,7 +32,14 @@ impl Explanation {
                 .join(", ")
         };
         compare("mean", mean(self), mean(b));
-        compare("samples", self.samples.len().to_string(), b.samples.len().to_string());
+        let samples = |of: &Self| {
+            if of.exact {
+                "none: exact areas".to_owned()
+            } else {
+                of.samples.len().to_string()
+            }
+        };
+        compare("samples", samples(self), samples(b));
         let filter = |of: &Self| {
             let wide = of.resolve.around.as_ref();
             wide.map_or("box".to_owned(), |wide| {
@@ -48,11 +55,9 @@ impl Explanation {
         };
         compare("post-process", smoothed(self), smoothed(b));
         compare("averaged as", self.resolve.space.to_owned(), b.resolve.space.to_owned());
-        let background = |of: &Self| {
-            let shown = of.samples.iter().filter(|sample| sample.seen.is_none()).count();
-            percent(shown as f64 / of.samples.len().max(1) as f64)
-        };
-        compare("background", background(self), background(b));
+        if let [Some(mine), Some(other)] = [self, b].map(Self::background) {
+            compare("background", percent(mine), percent(other));
+        }
         let mut textures: Vec<(String, Difference)> = Vec::new();
         for paint in self
             .paints
@@ -61,8 +66,9 @@ impl Explanation {
         {
             let (mine, other) = (self.same(paint), b.same(paint));
             let covered = |of: &Self, paint: Option<&Paint>| match paint {
+                None if of.exact => "nothing".to_owned(),
                 None => "no sample".to_owned(),
-                Some(paint) => percent(paint.fragments.len() as f64 / of.samples.len().max(1) as f64),
+                Some(paint) => percent(of.covered(paint)),
             };
             compare(
                 &format!("{} covers", paint.name()),
@@ -81,6 +87,22 @@ impl Explanation {
         }
         found.extend(by_what(&textures));
         found
+    }
+
+    /// The part of the pixel that a paint covers, as the picture counts it: its area, or the part of the samples.
+    fn covered(&self, paint: &Paint) -> f64 {
+        paint
+            .covered
+            .unwrap_or_else(|| paint.fragments.len() as f64 / self.samples.len().max(1) as f64)
+    }
+
+    /// The part of the pixel that shows the background; `None` where its one colour does not tell.
+    fn background(&self) -> Option<f64> {
+        if self.exact {
+            return self.area_shares().map(|shares| shares.background);
+        }
+        let shown = self.samples.iter().filter(|sample| sample.seen.is_none()).count();
+        Some(shown as f64 / self.samples.len().max(1) as f64)
     }
 
     /// The same part of the same primitive, the topmost where there are several.

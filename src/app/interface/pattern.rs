@@ -89,7 +89,7 @@ impl PatternDialog {
             area.show(ui, |ui| {
                 let settings: Vec<&PictureSetting> =
                     SETTINGS.iter().filter_map(|option| picture::find(option)).collect();
-                sampling::rows(ui, &settings, viewer.settings(), commands);
+                sampling::rows(ui, &settings, viewer, commands);
                 self.pattern(ui, viewer, side, across > 1.0);
             });
             closes

@@ -12,6 +12,8 @@ use crate::viewer::{
 
 /// Levels per point of dragging.
 const SPEED: f64 = 0.02;
+/// The opacity of a control without effect.
+const PALE: f32 = 0.45;
 /// Half a step: how far below the smallest number [`Control::Number`]'s `none` stands, so that dragging to the left reaches it.
 const BELOW: f64 = 0.5;
 
@@ -32,17 +34,22 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             }
         });
     });
-    rows(ui, &sampling, viewer.settings(), commands);
-    rows(ui, &document, viewer.settings(), commands);
+    rows(ui, &sampling, viewer, commands);
+    rows(ui, &document, viewer, commands);
     reading(ui, viewer, commands);
 }
 
 /// Settings below each other; those without a label stand beside the one before them.
-pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, commands: &mut Vec<Command>) {
+pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &Viewer, commands: &mut Vec<Command>) {
+    let now = viewer.settings();
+    let scene = viewer.scene_list().current().and_then(SceneEntry::scene);
+    let has_no_texture = scene.is_some_and(|scene| scene.textures.is_empty());
     let shown = settings.iter().filter_map(|setting| {
+        let reads_none = has_no_texture && setting.about == About::Textures;
         Some(ShownSetting {
             setting,
             panel: setting.panel.as_ref()?,
+            idle: reads_none.then_some("this scene has no texture").or(setting.idle(now)),
         })
     });
     let shown: Vec<ShownSetting> = shown.collect();
@@ -51,7 +58,7 @@ pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Sett
         if let Control::WideButtons(across) = first.panel.control {
             ui.label(RichText::new(first.panel.label).weak());
             for values in first.setting.offered(now).chunks(across) {
-                buttons(ui, *first, values, now, commands);
+                weakened(ui, *first, |ui| buttons(ui, *first, values, now, commands));
             }
             continue;
         }
@@ -60,10 +67,21 @@ pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Sett
             let parts: f32 = group.iter().map(|shown| shown.panel.control.part()).sum();
             let width = (ui.available_width() - gaps) / parts;
             for shown in group {
-                control(ui, *shown, now, width * shown.panel.control.part(), commands);
+                let width = width * shown.panel.control.part();
+                weakened(ui, *shown, |ui| control(ui, *shown, now, width, commands));
             }
         });
     }
+}
+
+/// A control, pale where it makes no difference.
+fn weakened(ui: &mut Ui, shown: ShownSetting, control: impl FnOnce(&mut Ui)) {
+    let opacity = ui.opacity();
+    if shown.idle.is_some() {
+        ui.multiply_opacity(PALE);
+    }
+    control(ui);
+    ui.set_opacity(opacity);
 }
 
 /// A setting, and how the panel shows it.
@@ -71,10 +89,34 @@ pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Sett
 struct ShownSetting {
     setting: &'static PictureSetting,
     panel: &'static PanelRow,
+    /// Why it makes no difference now. It can be set all the same: what takes its effect away may be changed next.
+    idle: Option<&'static str>,
+}
+
+impl ShownSetting {
+    /// What the tool tip of the command says that sets and steps the setting; where there is none, those that step it both
+    /// ways. After that, why it makes no difference.
+    fn tip(self) -> String {
+        let mut commands = self.setting.commands.iter();
+        let tip_of_steps = || {
+            let steps = self.setting.commands.iter().filter(|command| command.step.is_some());
+            steps.map(|command| tip(command.id)).collect::<Vec<_>>().join("; ")
+        };
+        let both = commands.find(|command| command.takes_value && command.step.is_some());
+        self.with_idle(both.map_or_else(tip_of_steps, |command| tip(command.id)))
+    }
+
+    /// A tool tip, and why the setting makes no difference.
+    fn with_idle(self, tip: String) -> String {
+        match self.idle {
+            Some(why) => format!("{tip}\nNo effect now: {why}."),
+            None => tip,
+        }
+    }
 }
 
 fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, commands: &mut Vec<Command>) {
-    let ShownSetting { setting, panel } = shown;
+    let ShownSetting { setting, panel, .. } = shown;
     match panel.control {
         Control::Buttons | Control::WideButtons(_) => {
             ui.allocate_ui(vec2(width, CONTROL.y), |ui| {
@@ -87,7 +129,7 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             let values: Vec<(&str, &str)> = names.iter().map(|name| (*name, *name)).collect();
             let list = ui.scope(|ui| {
                 ui.set_max_width(width);
-                drop_down(ui, panel.name, &tip_of(setting), current.as_str(), &values)
+                drop_down(ui, panel.name, &shown.tip(), current.as_str(), &values)
             });
             let chosen = list.inner;
             commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
@@ -111,28 +153,12 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
 }
 
 /// A button for each of these values.
-fn buttons(
-    ui: &mut Ui,
-    ShownSetting { setting, panel }: ShownSetting,
-    values: &[String],
-    now: &Settings,
-    commands: &mut Vec<Command>,
-) {
+fn buttons(ui: &mut Ui, shown: ShownSetting, values: &[String], now: &Settings, commands: &mut Vec<Command>) {
+    let ShownSetting { setting, panel, .. } = shown;
     let current = setting.value(now);
     let values: Vec<(&str, String)> = values.iter().map(|value| (value.as_str(), value.clone())).collect();
-    let chosen = choice(ui, panel.name, &tip_of(setting), current.as_str(), &values);
+    let chosen = choice(ui, panel.name, &shown.tip(), current.as_str(), &values);
     commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
-}
-
-/// What the tool tip of the command says that sets and steps a setting; where there is none, those that step it both ways.
-fn tip_of(setting: &PictureSetting) -> String {
-    let mut commands = setting.commands.iter();
-    if let Some(command) = commands.find(|command| command.takes_value && command.step.is_some()) {
-        return tip(command.id);
-    }
-    let steps = setting.commands.iter().filter(|command| command.step.is_some());
-    let tips: Vec<String> = steps.map(|command| tip(command.id)).collect();
-    tips.join("; ")
 }
 
 /// A number to drag or to type.
@@ -145,13 +171,8 @@ struct Number {
 
 impl Number {
     /// The new value, if there is one.
-    fn show(
-        &self,
-        ui: &mut Ui,
-        ShownSetting { setting, panel }: ShownSetting,
-        now: &Settings,
-        width: f32,
-    ) -> Option<String> {
+    fn show(&self, ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32) -> Option<String> {
+        let ShownSetting { setting, panel, .. } = shown;
         let name = panel.name;
         let Self {
             range,
@@ -184,7 +205,7 @@ impl Number {
                     _ => text.parse().ok(),
                 }
             });
-        let is_taken = sized(ui, width, field, name, &number_tip(setting));
+        let is_taken = sized(ui, width, field, name, &shown.with_idle(number_tip(setting)));
         number = if digits == 0 { number.round() } else { number };
         #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
         let is_new = is_taken && number != before;

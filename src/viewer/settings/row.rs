@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{Settings, values};
+use crate::render::RenderSettings;
 use crate::viewer::key_chords::Chord;
 
 /// A setting that decides the pixels of a picture, besides scene and view.
@@ -29,6 +30,8 @@ pub struct PictureSetting {
     pub signed: bool,
     /// Whether steps go round and round instead of ending at the first and the last value.
     pub goes_round: bool,
+    /// Why its value makes no difference beside those of the other settings, to go behind "no effect:"; `None` where it does, or may.
+    pub(super) idle: fn(&RenderSettings) -> Option<&'static str>,
     /// The name that a value had once, by its name of today.
     pub former: fn(&str) -> Option<&'static str>,
     /// The value as text, which `set` takes.
@@ -195,6 +198,12 @@ impl PictureSetting {
     /// Whether it is at its default.
     pub fn is_default(&self, settings: &Settings) -> bool {
         self.value(settings) == self.default_value()
+    }
+
+    /// Why its value makes no difference to any picture with these settings, in words that go behind "no effect:"; `None` where it
+    /// makes one, or may.
+    pub fn idle(&self, settings: &Settings) -> Option<&'static str> {
+        (self.idle)(&settings.render)
     }
 
     /// Such as `sample rate 16` or `bias +1`.

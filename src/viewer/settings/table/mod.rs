@@ -20,6 +20,7 @@ macro_rules! named {
             commands: &[],
             signed: false,
             goes_round: true,
+            idle: |_| None,
             former: |_| None,
             get: |settings| settings.$($field).+.name().to_owned(),
             set: |settings, text| {
@@ -31,6 +32,7 @@ macro_rules! named {
     };
 }
 
+mod idle;
 mod resolve;
 mod samples;
 mod shown;

@@ -1,5 +1,6 @@
 //! How samples become a pixel.
 
+use super::idle;
 use crate::color::ResolveSpace;
 use crate::post::PostProcess;
 use crate::raster::{FilterRadius, ResolveFilter};
@@ -23,6 +24,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Weighs the samples of a pixel and its neighbours by the next filter, such as Mitchell's or Lanczos'",
             )
         }],
+        idle: idle::colours,
         ..named!("resolve-filter", "filter", ResolveFilter, render.resolve_filter)
     },
     PictureSetting {
@@ -40,6 +42,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Leaves the finished pixels as they are, or guesses the lines behind stairs of pixels and blends along them (SMAA)",
             )
         }],
+        idle: idle::colours,
         ..named!("post-process", "post-process", PostProcess, render.post_process)
     },
     PictureSetting {
@@ -77,6 +80,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
+        idle: idle::colours,
         former: |_| None,
         get: |settings| {
             let radius = settings.render.filter_radius;
@@ -110,6 +114,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Switches between averaging the samples of a pixel as stored and as the light that they stand for",
             )
         }],
+        idle: idle::resolve,
         ..named!("resolve", "resolve", ResolveSpace, render.resolve)
     },
 ];

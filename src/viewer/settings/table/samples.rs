@@ -1,5 +1,6 @@
 //! Where samples lie, and how many.
 
+use super::idle;
 use crate::raster::{PixelCoverage, SamplePattern, SampleRate, Seed, ShadingRate};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
@@ -47,6 +48,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         ],
         signed: false,
         goes_round: false,
+        idle: idle::samples,
         former: |_| None,
         get: |settings| settings.render.sample_rate.samples().to_string(),
         set: |settings, text| {
@@ -74,6 +76,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Moves the samples inside their pixels, by the next pattern",
             )
         }],
+        idle: idle::samples,
         ..named!("pattern", "pattern", SamplePattern, render.pattern)
     },
     PictureSetting {
@@ -111,6 +114,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
+        idle: idle::seed,
         former: |_| None,
         get: |settings| settings.render.seed.number().to_string(),
         set: |settings, text| {
@@ -138,6 +142,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Computes colours at every sample, or once per primitive and pixel: in its centre or the centroid of what is covered",
             )
         }],
+        idle: idle::samples,
         ..named!("shading-rate", "shading rate", ShadingRate, render.shading)
     },
     PictureSetting {
@@ -155,6 +160,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Covers pixels by samples, or by exact areas that are composited source-over",
             )
         }],
+        idle: idle::colours,
         ..named!("coverage", "coverage", PixelCoverage, render.coverage)
     },
 ];

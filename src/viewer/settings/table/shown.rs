@@ -86,6 +86,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
+        idle: |_| None,
         former: |_| None,
         get: |settings| values::color_name(settings.render.background),
         set: |settings, text| {

@@ -1,5 +1,6 @@
 //! How textures are sampled.
 
+use super::idle;
 use crate::color::ResolveSpace;
 use crate::texture::{
     Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter, Wrap,
@@ -26,6 +27,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Reads the nearest texel, bilinear the four around a point, or sixteen by a cubic kernel",
             )
         }],
+        idle: idle::point,
         ..named!("pixel-sampling", "pixel sampling", PixelSampling, render.pixel_sampling)
     },
     PictureSetting {
@@ -90,6 +92,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
+        idle: idle::point,
         former: |_| None,
         get: |settings| settings.render.anisotropy.taps().to_string(),
         set: |settings, text| {
@@ -159,6 +162,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         ],
         signed: true,
         goes_round: false,
+        idle: idle::bias,
         former: |_| None,
         get: |settings| settings.render.detail.bias.levels().to_string(),
         set: |settings, text| {
@@ -203,6 +207,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
+        idle: |_| None,
         former: |_| None,
         get: |settings| {
             let level = settings.render.detail.fixed;
@@ -232,6 +237,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Switches between the level of detail of a pixel's footprint and of a sample's",
             )
         }],
+        idle: idle::lod_per,
         ..named!("lod-per", "level per", Derivatives, render.detail.derivatives)
     },
     PictureSetting {
@@ -249,6 +255,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Chooses what of a footprint the level of detail follows: its longer side, its area, or its shorter axis",
             )
         }],
+        idle: idle::lod_by,
         ..named!("lod-by", "level by", FootprintExtent, render.detail.extent)
     },
     PictureSetting {
@@ -266,6 +273,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Averages the texels of coarser mip levels in stored values or in linear light",
             )
         }],
+        idle: idle::pyramid,
         ..named!("pyramid", "pyramid", ResolveSpace, render.pyramid)
     },
     PictureSetting {
@@ -283,6 +291,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Makes coarser mip levels by the mean over a texel, by a tent, or by a sinc under a Kaiser window",
             )
         }],
+        idle: idle::pyramid,
         ..named!("pyramid-filter", "pyramid filter", PyramidFilter, render.pyramid_filter)
     },
 ];

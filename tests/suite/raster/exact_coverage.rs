@@ -224,6 +224,23 @@ fn explanations_end_in_the_frames_bytes() {
 }
 
 #[test]
+fn a_comparison_counts_areas() {
+    let scene = svg(r##"<path id="half" d="M0 0H3.3V8H0z" fill="#0000FF"/>"##);
+    let [areas, samples] = [exact(), sampled(4)].map(|settings| advised(&scene, &settings, [8, 8], [3, 4]));
+    let found = areas.differences(&samples);
+    let row = |what: &str| {
+        let row = found.iter().find(|row| row.what.contains(what));
+        row.map(|row| [row.a.as_str(), row.b.as_str()])
+    };
+    assert_eq!(row("samples"), Some(["none: exact areas", "4"]), "{found:?}");
+    assert_eq!(row("covers"), Some(["30 %", "50 %"]), "{found:?}");
+    assert_eq!(row("background"), Some(["70 %", "50 %"]), "{found:?}");
+    let outside = areas.differences(&advised(&scene, &exact(), [8, 8], [5, 4]));
+    let covers = outside.iter().find(|row| row.what.contains("covers"));
+    assert_eq!(covers.map(|row| row.b.as_str()), Some("nothing"), "{outside:?}");
+}
+
+#[test]
 fn a_seam_is_called_one_and_advice_knows_better() {
     let red = r##"<rect width="8" height="8" fill="#FF0000"/>"##;
     let neighbours = r##"<path d="M0 0H3.5V8H0z" fill="#0000FF"/><path d="M3.5 0H8V8H3.5z" fill="#0000FF"/>"##;

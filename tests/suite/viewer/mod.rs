@@ -4,6 +4,7 @@ mod boards;
 mod comparison;
 mod dialects;
 mod follow;
+mod idle;
 mod inspector;
 mod profiles;
 mod random;

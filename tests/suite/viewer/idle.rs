@@ -1,0 +1,103 @@
+//! Settings that are said to have no effect have none.
+
+use arbtest::arbitrary::{Result, Unstructured};
+use rasterscope::geometry::{View, ViewTransform};
+use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+use rasterscope::viewer::{PictureSetting, Settings, picture};
+
+use crate::support::scenes::drawn;
+
+const SIZE: [u32; 2] = [14, 11];
+/// Textures, magnified and minified; gradients, a tile of a pattern and edges.
+const OF_SCENES: [&str; 3] = ["07_checker_floor.svg", "texmap/test1.svg", ""];
+
+fn scenes() -> Vec<(Scene, ViewTransform)> {
+    let own = r##"<svg xmlns="http://www.w3.org/2000/svg" width="28" height="22">
+        <linearGradient id="g"><stop stop-color="#f00"/><stop offset="1" stop-color="#0f0" stop-opacity=".4"/></linearGradient>
+        <pattern id="p" width="3" height="3" patternUnits="userSpaceOnUse"><circle cx="1.4" cy="1.6" r="1.2" fill="#03c"/></pattern>
+        <rect x="1.3" y=".7" width="15" height="12.4" fill="url(#g)" transform="rotate(7)"/>
+        <path d="M3 20L27 1 25 21z" fill="url(#p)" stroke="#505" stroke-width=".8"/></svg>"##;
+    let scenes = OF_SCENES.map(|path| {
+        let known = SCENES
+            .iter()
+            .find(|scene| !path.is_empty() && scene.name.contains(path));
+        let document = known.map_or(own, |scene| scene.document);
+        assert_eq!(known.is_some(), !path.is_empty(), "{path} is there");
+        let options = ReadOptions {
+            dialect: DialectChoice::Auto,
+        };
+        read(document.as_bytes(), "scene.svg", options, &Textures).expect("a scene")
+    });
+    let with_view = |scene: Scene| {
+        let view = View::Canvas.transform(scene.canvas, SIZE);
+        (scene, view)
+    };
+    scenes.into_iter().map(with_view).collect()
+}
+
+/// Sets `setting` to a value, as a user does.
+fn set(settings: &mut Settings, setting: &'static PictureSetting, value: &str) {
+    let change = setting.to(value).expect("one of its values");
+    change.apply(settings);
+}
+
+fn any(u: &mut Unstructured<'_>, all: &[&'static PictureSetting]) -> Result<Settings> {
+    let mut settings = Settings::default();
+    for _ in 0..u.int_in_range(0..=6)? {
+        let setting = *u.choose(all)?;
+        let value = *u.choose(&setting.some_values())?;
+        set(&mut settings, setting, value);
+    }
+    Ok(settings)
+}
+
+#[test]
+fn settings_without_effect_move_no_byte() {
+    let scenes = scenes();
+    let all: Vec<&'static PictureSetting> = picture::all().filter(|setting| setting.option != "dialect").collect();
+    let pictures = |settings: &Settings| -> Vec<Vec<u32>> {
+        let pictures = scenes
+            .iter()
+            .map(|(scene, view)| drawn(scene, view, &settings.render, SIZE));
+        pictures.map(|frame| frame.pixels().to_vec()).collect()
+    };
+    let (mut idle, mut counts) = (Vec::new(), Vec::new());
+    arbtest::arbtest(|u| {
+        let settings = any(u, &all)?;
+        let before = pictures(&settings);
+        for setting in &all {
+            let others = setting.some_values().into_iter().map(|value| {
+                let mut other = settings.clone();
+                set(&mut other, setting, value);
+                other
+            });
+            // Another pattern may change the rate with it.
+            let mut others = others.filter(|other| {
+                setting.option == "sample-rate" || other.render.sample_rate == settings.render.sample_rate
+            });
+            if let Some(why) = setting.idle(&settings) {
+                idle.push(setting.option);
+                for other in others {
+                    assert!(
+                        pictures(&other) == before,
+                        "{} {} has an effect beside {:?}, though {why}",
+                        setting.option,
+                        setting.value(&other),
+                        settings.render
+                    );
+                }
+            } else if !counts.contains(&setting.option) && others.any(|other| pictures(&other) != before) {
+                counts.push(setting.option);
+            }
+        }
+        Ok(())
+    })
+    .budget_ms(2500);
+    idle.sort_unstable();
+    idle.dedup();
+    assert!(idle.len() >= 12, "without effect at times: {idle:?}");
+    for option in idle {
+        assert!(counts.contains(&option), "{option} never has an effect");
+    }
+}

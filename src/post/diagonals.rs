@@ -63,6 +63,34 @@ fn follow([x, y]: [i32; 2], step: [i32; 2], stair: impl Fn([i32; 2]) -> [bool; 2
     }
 }
 
+/// Which of the 64 pixels of a word in row `y` diagonals may go through: no others have three steps.
+pub(super) fn candidates(edges: &Edges, word: usize, y: i32) -> u64 {
+    // The edges of the pixels that lie so far to the right and below: those of a row begin in column `x`.
+    let moved = |x: i32, y: i32| {
+        let words = [word - 1, word, word + 1].map(|word| edges.rows.word(word, y));
+        [LEFT, TOP].map(|side| match x.unsigned_abs() {
+            0 => words[1][side],
+            by if x > 0 => words[1][side] >> by | words[2][side] << (64 - by),
+            by => words[1][side] << by | words[0][side] >> (64 - by),
+        })
+    };
+    let rises = |step: i32| {
+        let [left, top] = moved(step, y - step);
+        left & top
+    };
+    let falls = |step: i32| moved(step + 1, y + step)[LEFT] & moved(step, y + step)[TOP];
+    let [left, top] = moved(0, y);
+    let right = moved(1, y)[LEFT];
+    let rising = may_go(left, [rises(1), rises(2), rises(3)], [rises(-1), rises(-2)]);
+    let falling = may_go(right, [falls(-1), falls(-2), falls(-3)], [falls(1), falls(2)]);
+    top & (rising | falling)
+}
+
+/// Whether the stairs of a diagonal may be three: upwards from a pixel, and downwards where it has the `side` for that.
+fn may_go(side: u64, up: [u64; 3], down: [u64; 2]) -> u64 {
+    up[0] & up[1] & (up[2] | side) | side & down[0] & (up[0] | down[1])
+}
+
 impl Diagonal {
     /// The diagonals that go through a pixel with a top edge: the one that rises, and the one that falls.
     pub(super) fn through(edges: &Edges, pixel: [i32; 2]) -> [Option<Self>; 2] {
@@ -70,7 +98,7 @@ impl Diagonal {
     }
 
     fn rising(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: u8| edges.at_place(edges.place([x, y])) & side != 0;
+        let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
         let stair = |[x, y]: [i32; 2]| [has(x, y, LEFT), has(x, y, TOP)];
         let left = if has(x, y, LEFT) {
             follow([x, y], [-1, 1], stair)
@@ -94,7 +122,7 @@ impl Diagonal {
     }
 
     fn falling(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: u8| edges.at_place(edges.place([x, y])) & side != 0;
+        let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
         let stair = |[x, y]: [i32; 2]| [has(x + 1, y, LEFT), has(x, y, TOP)];
         let left = follow([x, y], [-1, -1], stair);
         let right = if has(x + 1, y, LEFT) {

@@ -1,20 +1,22 @@
 //! Which sides of pixels are edges: where luma differs, unless something beside differs much more.
 
+use std::array::from_fn;
+
+use fearless_simd::{Simd, dispatch};
 use rayon::prelude::*;
 
-/// The edge between a pixel and the one on its left.
-pub(super) const LEFT: u8 = 1;
+use super::bits::{self, Bits, Words};
+use crate::simd;
+
+/// The edge between a pixel and the one on its left, among the [`Words`] of a pixel.
+pub(super) const LEFT: usize = 0;
 /// The edge between a pixel and the one above it.
-pub(super) const TOP: u8 = 2;
+pub(super) const TOP: usize = 1;
 
 /// The least difference of luma that is an edge, `0.0..=1.0`.
 pub const THRESHOLD: f64 = 0.1;
 /// An edge is dropped where luma differs by more than this many times as much beside it: the eye sees that one only.
 pub const FACTOR: i32 = 2;
-
-/// Columns and rows around the frame that have no edges, so that nobody has to ask where it ends.
-const PADDING: usize = 2;
-const PADDING_PIXELS: i32 = 2;
 
 /// Weights of red, green and blue in luma (ITU-R BT.709), in parts of 10 000.
 const WEIGHTS: [i32; 3] = [2126, 7152, 722];
@@ -23,10 +25,12 @@ const WHITE: i32 = 10_000 * 255 * 255;
 /// [`THRESHOLD`] in the same measure.
 const LEAST: i32 = WHITE / 10;
 
-/// Pixels that are passed over at once where none has an edge.
-pub(super) const CHUNK: usize = 32;
-/// Rows that a thread takes at once.
-pub(super) const BAND: usize = 32;
+/// Pixels whose edges are found at once: as many as a word has bits.
+const CHUNK: usize = 64;
+/// Rows that a thread takes at once: as many again, so that words of columns are whole.
+const BAND: usize = 64;
+/// Pixels of a chunk with those beside it: two on its left and one on its right.
+const WIDE: usize = CHUNK + 3;
 
 /// The luma of a stored colour weighted by its opacity, and that opacity: both `0..=WHITE`.
 #[inline]
@@ -47,123 +51,180 @@ pub(super) fn contrast(a: u32, b: u32) -> f64 {
     f64::from(distance(luma(a), luma(b))) / f64::from(WHITE)
 }
 
-/// The rows of pixels around one: two above it, itself, and the one below; none beyond the frame.
-struct Rows<'a> {
-    above: [Option<&'a [u32]>; 2],
-    own: &'a [u32],
-    below: Option<&'a [u32]>,
+/// Numbers of a chunk's pixels: in its own row with those beside it; and two rows above, one above, and below.
+struct Near<T> {
+    own: [T; WIDE],
+    others: [[T; CHUNK]; 3],
 }
 
-impl Rows<'_> {
-    /// Marks the edges of the row.
-    fn mark(&self, flags: &mut [u8]) {
-        for (start, flags) in (0..).step_by(CHUNK).zip(flags.chunks_mut(CHUNK)) {
-            let end = start + flags.len();
-            // Most pixels are those beside them.
-            let is_flat = self.own[start.max(1)..end] == self.own[start.max(1) - 1..end - 1];
-            let goes_on = |above: &[u32]| above[start..end] == self.own[start..end];
-            if is_flat && self.above[1].is_none_or(goes_on) {
-                continue;
-            }
-            let mut left = self.own[start.saturating_sub(1)];
-            let mut luma_left = luma(left);
-            for (x, flags) in (start..end).zip(flags) {
-                let own = self.own[x];
-                let above = self.above[1].map_or(own, |above| above[x]);
-                if own != left || own != above {
-                    let here = luma(own);
-                    let is_edge = |other: [i32; 2], side: u8| u8::from(distance(here, other) >= LEAST) * side;
-                    let found = is_edge(luma_left, LEFT) | is_edge(luma(above), TOP);
-                    luma_left = here;
-                    *flags = if found == 0 { 0 } else { self.adapted(x, found) };
-                }
-                left = own;
+/// How far pixels of a chunk are from the ones on their left, from the column before the chunk to that after it; and from
+/// those above, from the row before the own one to that after it.
+struct Distances {
+    across: [i32; CHUNK + 2],
+    down: [[i32; CHUNK]; 3],
+}
+
+impl Near<u32> {
+    /// The chunk that begins in column `start`. Beyond the frame nothing differs: there is what stands at its border.
+    fn new(rows: [&[u32]; 4], start: usize) -> Self {
+        let [above_that, above, own, below] = rows;
+        let last = own.len() - 1;
+        if start >= 2 && start + CHUNK < own.len() {
+            let chunk = |row: &[u32]| from_fn(|x| row[start..start + CHUNK][x]);
+            return Self {
+                own: from_fn(|x| own[start - 2..start - 2 + WIDE][x]),
+                others: [above_that, above, below].map(chunk),
+            };
+        }
+        let chunk = |row: &[u32]| from_fn(|x| row[(start + x).min(last)]);
+        Self {
+            own: from_fn(|x| own[(start + x).saturating_sub(2).min(last)]),
+            others: [above_that, above, below].map(chunk),
+        }
+    }
+
+    #[inline(always)]
+    fn map(&self, number: impl Fn(u32) -> i32) -> Near<i32> {
+        Near {
+            own: from_fn(|x| number(self.own[x])),
+            others: from_fn(|row| from_fn(|x| number(self.others[row][x]))),
+        }
+    }
+
+    fn is_opaque(&self) -> bool {
+        let all = |pixels: &[u32]| pixels.iter().fold(u32::MAX, |all, pixel| all & pixel);
+        let others = self.others.iter().fold(u32::MAX, |sum, row| sum & all(row));
+        (all(&self.own) & others) >> 24 == 255
+    }
+
+    /// The edges of the pixels.
+    #[inline(always)]
+    fn words(&self) -> Words {
+        let mut distances = Distances {
+            across: [0; CHUNK + 2],
+            down: [[0; CHUNK]; 3],
+        };
+        distances.widen(&self.map(|pixel| luma(pixel)[0]));
+        if !self.is_opaque() {
+            distances.widen(&self.map(|pixel| luma(pixel)[1]));
+        }
+        distances.words()
+    }
+}
+
+impl Distances {
+    /// Takes in how far these numbers are apart.
+    #[inline(always)]
+    fn widen(&mut self, near: &Near<i32>) {
+        for (x, most) in self.across.iter_mut().enumerate() {
+            *most = (*most).max((near.own[x + 1] - near.own[x]).abs());
+        }
+        let [above_that, above, below] = &near.others;
+        for x in 0..CHUNK {
+            let own = near.own[x + 2];
+            let apart = [above[x] - above_that[x], own - above[x], below[x] - own];
+            for (most, apart) in self.down.iter_mut().zip(apart) {
+                most[x] = most[x].max(apart.abs());
             }
         }
     }
 
-    /// Drops those of a pixel's edges beside which luma differs much more.
-    fn adapted(&self, x: usize, found: u8) -> u8 {
-        let own = self.own[x];
-        let in_row = |x: Option<usize>| x.and_then(|x| self.own.get(x)).copied();
-        let in_column = |row: Option<&[u32]>| row.map(|row| row[x]);
-        // Beyond the frame nothing differs.
-        let between = |a: Option<u32>, b: Option<u32>| a.zip(b).map_or(0, |(a, b)| distance(luma(a), luma(b)));
-        let (left, top) = (in_row(x.checked_sub(1)), in_column(self.above[1]));
-        let [to_left, to_top] = [left, top].map(|other| between(Some(own), other));
-        let others = [
-            between(Some(own), in_row(Some(x + 1))),
-            between(Some(own), in_column(self.below)),
-            between(left, in_row(x.checked_sub(2))),
-            between(top, in_column(self.above[0])),
-        ];
-        let most = others.into_iter().fold(to_left.max(to_top), i32::max);
-        let kept = |side: u8, distance: i32| if FACTOR * distance >= most { found & side } else { 0 };
-        kept(LEFT, to_left) | kept(TOP, to_top)
+    /// The edges, but for those beside which luma differs much more.
+    #[inline(always)]
+    fn words(&self) -> Words {
+        let mut flags = [[0; CHUNK]; 2];
+        for x in 0..CHUNK {
+            let own = [self.across[x + 1], self.down[1][x]];
+            let across = self.across[x].max(own[0]).max(self.across[x + 2]);
+            let down = self.down[0][x].max(own[1]).max(self.down[2][x]);
+            let most = across.max(down);
+            for (flags, own) in flags.iter_mut().zip(own) {
+                flags[x] = u8::from((own >= LEAST) & (FACTOR * own >= most));
+            }
+        }
+        flags.map(|flags| packed(&flags))
     }
 }
 
-/// The edges of a frame or a part of one: [`LEFT`] and [`TOP`] of each pixel.
+/// A bit for each of some numbers that are 0 or 1.
+#[inline(always)]
+fn packed(flags: &[u8; CHUNK]) -> u64 {
+    let (eights, _) = flags.as_chunks::<8>();
+    let bytes = eights
+        .iter()
+        .map(|eight| u64::from_le_bytes(*eight).wrapping_mul(0x0102_0408_1020_4080) >> 56);
+    bytes.rev().fold(0, |all, byte| all << 8 | byte)
+}
+
+/// The edges of some pixels: of 64 from `start` on, or of those up to the row's end. The rows are two above theirs, the one
+/// above, their own, and the one below.
+fn found(rows: [&[u32]; 4], start: usize) -> Words {
+    let [_, above, own, _] = rows;
+    let end = own.len().min(start + CHUNK);
+    // Most pixels are those beside them.
+    let is_flat = own[start.max(1)..end] == own[start.max(1) - 1..end - 1];
+    if is_flat && above[start..end] == own[start..end] {
+        return [0; 2];
+    }
+    let near = Near::new(rows, start);
+    let found = dispatch!(simd::level(), simd => simd.vectorize(
+        #[inline(always)]
+        || near.words(),
+    ));
+    found.map(|word| word & u64::MAX >> (CHUNK - (end - start)))
+}
+
+/// The edges of a frame or a part of one.
 #[derive(Debug)]
 pub(super) struct Edges {
     pub(super) size: [usize; 2],
-    stride: usize,
-    flags: Vec<u8>,
+    pub(super) rows: Bits,
+    pub(super) columns: Bits,
 }
 
 impl Edges {
     /// Of `pixels` `0xAARRGGBB`, row by row.
     pub(super) fn new(pixels: &[u32], size: [usize; 2]) -> Self {
         let [width, height] = size;
-        let stride = width + 2 * PADDING;
-        let mut flags = vec![0; stride * (height + 2 * PADDING)];
-        let own = &mut flags[PADDING * stride..][..height * stride];
-        own.par_chunks_mut(BAND * stride).enumerate().for_each(|(band, flags)| {
-            let row = |y: Option<usize>| y.and_then(|y| pixels.chunks_exact(width).nth(y));
-            for (y, flags) in (band * BAND..).zip(flags.chunks_exact_mut(stride)) {
-                let rows = Rows {
-                    above: [row(y.checked_sub(2)), row(y.checked_sub(1))],
-                    own: &pixels[y * width..][..width],
-                    below: row(Some(y + 1)),
-                };
-                rows.mark(&mut flags[PADDING..][..width]);
+        let mut rows = Bits::rows(width, height);
+        let mut columns = Bits::columns(height, width);
+        let (row_words, stride) = rows.rows_mut();
+        let (column_words, column_stride) = columns.columns_mut();
+        let bands = row_words[..height * stride].par_chunks_mut(BAND * stride);
+        let bands = bands.zip(column_words.par_chunks_mut(column_stride)).enumerate();
+        bands.for_each(|(band, (words, columns))| {
+            let row = |y: usize| &pixels[y.min(height - 1) * width..][..width];
+            for (y, words) in (band * BAND..).zip(words.chunks_exact_mut(stride)) {
+                let rows = [row(y.saturating_sub(2)), row(y.saturating_sub(1)), row(y), row(y + 1)];
+                for (start, word) in (0..width).step_by(CHUNK).zip(&mut words[1..]) {
+                    *word = found(rows, start);
+                }
+            }
+            let columns = &mut columns[Bits::BEFORE..][..width];
+            for (word, columns) in (1..).zip(columns.chunks_mut(CHUNK)) {
+                turn(words, stride, word, columns);
             }
         });
-        Self { size, stride, flags }
+        Self { size, rows, columns }
     }
 
-    /// A row, and the one column after its last, which has no edges. The row below the last has none either.
+    /// Whether a side of a pixel is an edge, which lies in the frame or at most two pixels beside it.
     #[inline]
-    pub(super) fn row(&self, y: usize) -> &[u8] {
-        let start = (y + PADDING) * self.stride + PADDING;
-        &self.flags[start..=start + self.size[0]]
+    pub(super) fn has(&self, [x, y]: [i32; 2], side: usize) -> bool {
+        let (word, bit) = bits::place(x);
+        self.rows.word(word, y)[side] >> bit & 1 != 0
     }
+}
 
-    /// Where the flags of a pixel are that lies in the frame or at most two pixels beside it.
-    #[inline]
-    pub(super) fn place(&self, [x, y]: [i32; 2]) -> usize {
-        let [x, y] = [x, y].map(|at| usize::try_from(at + PADDING_PIXELS).unwrap_or(0));
-        y * self.stride + x
-    }
-
-    /// How far apart the flags of pixels in the next column and in the next row are.
-    pub(super) fn steps(&self) -> [usize; 2] {
-        [1, self.stride]
-    }
-
-    /// The edges of the pixel at such a place.
-    #[inline]
-    pub(super) fn at_place(&self, place: usize) -> u8 {
-        self.flags.get(place).copied().unwrap_or(0)
-    }
-
-    /// The edges of a pixel; none beyond the frame.
-    #[inline]
-    pub(super) fn at(&self, [x, y]: [i32; 2]) -> u8 {
-        let place = |at: i32| usize::try_from(at + PADDING_PIXELS);
-        match (place(x), place(y)) {
-            (Ok(x), Ok(y)) if x < self.stride => self.flags.get(y * self.stride + x).copied().unwrap_or(0),
-            _ => 0,
+/// Makes words of columns from those of rows.
+fn turn(rows: &[Words], stride: usize, word: usize, columns: &mut [Words]) {
+    for side in [LEFT, TOP] {
+        let mut turned: [u64; BAND] = from_fn(|y| rows.get(y * stride + word).map_or(0, |words| words[side]));
+        if turned.iter().any(|word| *word != 0) {
+            bits::turn(&mut turned);
+            for (column, turned) in columns.iter_mut().zip(turned) {
+                column[side] = turned;
+            }
         }
     }
 }

@@ -9,6 +9,7 @@
 //!
 //! Columns are rows turned over the diagonal: left edges are lines then, and top edges cross them.
 
+use super::bits::{self, Bits};
 use super::edges::{Edges, LEFT, TOP};
 
 /// Pixels that a line is followed in each direction: 16 steps of two.
@@ -38,9 +39,18 @@ impl Axis {
         self.pixel(pixel)
     }
 
+    /// The edges by rows or columns along it.
+    #[inline]
+    fn bits(self, edges: &Edges) -> &Bits {
+        match self {
+            Self::Row => &edges.rows,
+            Self::Column => &edges.columns,
+        }
+    }
+
     /// The edge that is part of a line, and the one that crosses it.
     #[inline]
-    fn sides(self) -> [u8; 2] {
+    fn sides(self) -> [usize; 2] {
         match self {
             Self::Row => [TOP, LEFT],
             Self::Column => [LEFT, TOP],
@@ -72,31 +82,29 @@ impl Line {
     /// The line that an edge of the pixel at `place`, along the axis and across it, is part of.
     pub(super) fn through(edges: &Edges, axis: Axis, [along, across]: [i32; 2]) -> Self {
         let [line, crossing] = axis.sides();
-        let place = edges.place(axis.pixel([along, across]));
-        let [column, row] = edges.steps();
-        let (next, beside) = match axis {
-            Axis::Row => (column, row),
-            Axis::Column => (row, column),
-        };
-        let flags = |place: usize| edges.at_place(place);
-        let is_crossed = |place: usize| (flags(place) | flags(place - beside)) & crossing != 0;
-        let is_line = |place: usize| flags(place) & line != 0;
-        let (mut before, mut begin) = (0, place);
-        while before < LONGEST && !is_crossed(begin) && is_line(begin - next) {
-            (before, begin) = (before + 1, begin - next);
-        }
-        let (mut after, mut end) = (0, place + next);
-        while after < LONGEST && !is_crossed(end) && is_line(end) {
-            (after, end) = (after + 1, end + next);
-        }
-        let end_at = |place: usize| {
-            let crosses = |place: usize| flags(place) & crossing != 0;
+        let bits = axis.bits(edges);
+        let (number, bit) = bits::place(along);
+        let near = [number - 1, number, number + 1].map(|word| {
+            let own = bits.word(word, across);
+            (own[line], own[crossing] | bits.word(word, across - 1)[crossing])
+        });
+        let [lines, crossed] = [near.map(|(line, _)| line), near.map(|(_, crossed)| crossed)];
+        // It goes on before a pixel that nothing crosses, where the one before has an edge.
+        let goes_on = bits::up_to(bit, [lines[0], lines[1]]) << 1 & !bits::up_to(bit, [crossed[0], crossed[1]]);
+        let before = goes_on.leading_ones().min(LONGEST.into());
+        let goes_on = bits::after(bit, [lines[1], lines[2]]) & !bits::after(bit, [crossed[1], crossed[2]]);
+        let after = goes_on.trailing_ones().min(LONGEST.into());
+        let [before, after] = [before, after].map(|length| u8::try_from(length).unwrap_or(LONGEST));
+        let end_at = |along: i32| {
+            let (word, bit) = bits::place(along);
+            let crosses = |row: i32| bits.word(word, across + row)[crossing] >> bit & 1 != 0;
             End {
-                near: crosses(place),
-                far: crosses(place - beside),
-                goes_on: [crosses(place + beside), crosses(place - 2 * beside)],
+                near: crosses(0),
+                far: crosses(-1),
+                goes_on: [crosses(1), crosses(-2)],
             }
         };
+        let (begin, end) = (along - i32::from(before), along + 1 + i32::from(after));
         Self {
             lengths: [before, after],
             ends: [end_at(begin), end_at(end)],

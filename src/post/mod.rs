@@ -18,6 +18,7 @@
 //! threads give the same bytes. A pixel depends on those at most [`REACH`] beside it.
 
 mod areas;
+mod bits;
 mod blend;
 mod diagonals;
 mod edges;

@@ -215,10 +215,10 @@ fn pattern(edges: &Edges, own: [i32; 2], neighbour: Neighbour) -> Option<Pattern
         Neighbour::Right => (neighbour.beside(own), LEFT),
         Neighbour::Below => (neighbour.beside(own), TOP),
     };
-    if edges.at(at) & side == 0 {
+    if !edges.has(at, side) {
         return None;
     }
-    let top = (edges.at(at) & TOP != 0).then(|| Found::at_top(edges, at));
+    let top = edges.has(at, TOP).then(|| Found::at_top(edges, at));
     Some(match (side, top) {
         (TOP, Some(found)) => Pattern::of(found),
         (_, Some(Found::Diagonals(_))) => Pattern::Taken,

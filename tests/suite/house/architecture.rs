@@ -120,8 +120,8 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "post",
-        rooms: &["color", "rules"],
-        crates: &[],
+        rooms: &["color", "rules", "simd"],
+        crates: &["fearless_simd"],
     },
     Room {
         name: "raster",

@@ -68,8 +68,22 @@ impl Blend {
         ]
     }
 
+    /// The weight of the only neighbour that is blended in, and that pixel, if it is but one.
+    fn only(self, neighbours: [u32; 2]) -> Option<(u16, u32)> {
+        match self.weights {
+            [first, 0] => Some((first, neighbours[0])),
+            [0, second] => Some((second, neighbours[1])),
+            _ => None,
+        }
+    }
+
     /// The pixel `0xAARRGGBB` that becomes of one and its neighbours.
     pub(super) fn pixel(self, own: u32, neighbours: [u32; 2], values: Values) -> u32 {
+        let is_plain = values.space == ResolveSpace::Stored && values.rules != Rules::Course;
+        let is_opaque = (own & neighbours[0] & neighbours[1]) >> 24 == 255;
+        if let (true, true, Some((weight, neighbour))) = (is_plain, is_opaque, self.only(neighbours)) {
+            return opaque(own, neighbour, weight);
+        }
         let mut sum = WeightedSum::default();
         for (weight, pixel) in self.shares().into_iter().zip([own, neighbours[0], neighbours[1]]) {
             let [a, r, g, b] = pixel.to_be_bytes();
@@ -80,5 +94,49 @@ impl Blend {
             sum.add(weight, values.space.parts(color));
         }
         values.space.weighted_pixel(sum, values.rules)
+    }
+}
+
+/// An opaque pixel and another by its weight, bytes rounded to nearest. With a single neighbour of weight `w`, the shares
+/// `w (1 - w)` and `w w` are to each other as `1 - w` and `w`, whose sum needs no division.
+#[inline]
+fn opaque(own: u32, neighbour: u32, weight: u16) -> u32 {
+    let weight = i32::from(weight);
+    let [_, own @ ..] = own.to_be_bytes();
+    let [_, neighbour @ ..] = neighbour.to_be_bytes();
+    let one = i32::from(ONE);
+    let [r, g, b] = [0, 1, 2].map(|k| {
+        let (own, neighbour) = (i32::from(own[k]), i32::from(neighbour[k]));
+        (own * one + (neighbour - own) * weight + one / 2) / one
+    });
+    0xFF00_0000 | r.cast_unsigned() << 16 | g.cast_unsigned() << 8 | b.cast_unsigned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_single_neighbour_is_blended_in_as_all_are() {
+        let values = Values {
+            space: ResolveSpace::Stored,
+            rules: Rules::Standard,
+        };
+        for weight in (1..=ONE).step_by(61) {
+            for level in (0..=255).step_by(5) {
+                let (own, other) = (0xFF00_8040, 0xFFFF_0000 | level << 8 | (255 - level));
+                let blend = Blend {
+                    is_across: true,
+                    weights: [weight, 0],
+                };
+                let mut sum = WeightedSum::default();
+                for (share, pixel) in blend.shares().into_iter().zip([own, other]) {
+                    let [a, r, g, b] = u32::to_be_bytes(pixel);
+                    sum.add(share, values.space.parts(Premultiplied16::from_bytes([r, g, b, a])));
+                }
+                let expected = values.space.weighted_pixel(sum, values.rules);
+                assert_eq!(blend.pixel(own, [other, own], values), expected, "{weight}, {level}");
+            }
+        }
     }
 }

@@ -1,5 +1,10 @@
 //! Which sides of pixels are edges: where luma differs, unless something beside differs much more.
 
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+
 use std::array::from_fn;
 
 use fearless_simd::{Simd, dispatch};
@@ -139,7 +144,7 @@ impl Distances {
             let down = self.down[0][x].max(own[1]).max(self.down[2][x]);
             let most = across.max(down);
             for (flags, own) in flags.iter_mut().zip(own) {
-                flags[x] = u8::from((own >= LEAST) & (FACTOR * own >= most));
+                flags[x] = u8::from(own >= LEAST && FACTOR * own >= most);
             }
         }
         flags.map(|flags| packed(&flags))

@@ -9,7 +9,7 @@ use super::detail_settings::FixedLevel;
 use super::{Ellipse, Footprint, LevelChoice, LevelSampling, MipPyramid, SamplingSettings};
 
 /// The most texels of which sums and ripmaps are made. Of a larger texture they are made of its first level that is small
-/// enough: 128 megabytes for sums, 64 for a ripmap.
+/// enough: 64 megabytes for sums of bytes, 128 for those of light, 64 for a ripmap.
 const MOST_TEXELS: u64 = 1 << 22;
 
 /// What of a texture a sample weighs.

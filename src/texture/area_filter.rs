@@ -4,14 +4,14 @@
 
 use glam::DVec2;
 
-use super::area::TexelBox;
-use super::ewa_filter::{EwaFilter, LANES, RowTexels};
+use super::box_means::BoxFilter;
+use super::ewa_filter::{EwaFilter, RowTexels};
 use super::filter_plan::Plan;
 use super::fixed_point::MASS;
 use super::pyramid::NumberedLevel;
-use super::summed_area::SummedAreaTable;
+use super::sample_places::{LANES, PixelPlaces, Places};
 use super::{Area, Filter, LevelChoice, MipLevel, PixelList, PixelSampling, Reading, Ripmap};
-use super::{SampleGrid, SamplingSettings, Taps, Texture, UvMap, Wrap, bilinear};
+use super::{SampleGrid, SamplingSettings, Taps, Texture, UvMap, bilinear};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
 use crate::simd::Level;
@@ -38,9 +38,7 @@ pub(super) enum Kind<'a> {
 pub(super) struct Summed<'a> {
     /// The level that was summed.
     pub(super) base: &'a MipLevel,
-    pub(super) table: &'a SummedAreaTable,
-    pub(super) area: TexelBox,
-    pub(super) wrap: Wrap,
+    pub(super) filter: BoxFilter<'a>,
 }
 
 impl<'a> AreaFilter<'a> {
@@ -71,9 +69,11 @@ impl<'a> AreaFilter<'a> {
                 place: place(&levels[area.level], area.level),
                 read: Summed {
                     base: &levels[area.level],
-                    table: texture.summed_area(settings.pyramid),
-                    area,
-                    wrap: settings.wrap,
+                    filter: BoxFilter {
+                        table: texture.summed_area(settings.pyramid),
+                        area,
+                        wrap: settings.wrap,
+                    },
                 },
             },
             Area::Ripmap(choices) => {
@@ -98,24 +98,24 @@ impl<'a> AreaFilter<'a> {
             }
             Kind::Ewa { place, filter } => {
                 let plan = place.plan(grid);
-                let (mut row, mut places) = (RowTexels::new(), Vec::new());
+                let mut row = RowTexels::new();
                 let side = u16::try_from(grid.side).unwrap_or(1).max(1);
                 let pixel = |point: &[u16; 2]| point.map(|at| at / side);
                 let mut rest = out;
                 for samples in points.chunk_by(|a, b| pixel(a) == pixel(b)) {
-                    places.clear();
-                    places.extend(samples.iter().map(|point| at(&plan, *point)));
                     let (colors, others) = rest.split_at_mut(samples.len());
                     rest = others;
-                    for (places, colors) in places.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-                        filter.colors(simd, places, &mut row, colors);
+                    for (points, colors) in samples.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+                        let places = Places::of_points(&plan, points);
+                        filter.colors(simd, &places, &mut row, colors);
                     }
                 }
             }
             Kind::Summed { place, read } => {
                 let plan = place.plan(grid);
-                for (point, out) in points.iter().zip(out) {
-                    *out = read.color(at(&plan, *point));
+                for (points, out) in points.chunks(LANES).zip(out.chunks_mut(LANES)) {
+                    let colors = read.filter.colors(simd, &Places::of_points(&plan, points));
+                    out.copy_from_slice(&colors[..out.len()]);
                 }
             }
         }
@@ -144,56 +144,24 @@ impl<'a> AreaFilter<'a> {
             return;
         }
         let (Kind::Ewa { place, .. } | Kind::Summed { place, .. } | Kind::Ripmap { upper: place, .. }) = &self.0;
+        if let Kind::Summed { read, .. } = &self.0
+            && read.filter.is_bilinear()
+        {
+            return place.sums(simd, grid, list, sums);
+        }
         let plan = place.plan(grid);
+        let samples = PixelPlaces::new(grid.side);
         let mut row = RowTexels::new();
-        let mut inside = Vec::new();
         for (i, (pixel, sum)) in list.pixels.iter().zip(sums).enumerate() {
-            inside.clear();
-            each_covered(grid.side, *pixel, list.masks.map(|masks| masks[i]), |sample| {
-                inside.push(at(&plan, sample));
-            });
             *sum = [0; 4];
-            match &self.0 {
-                Kind::Ewa { filter, .. } => {
-                    for samples in inside.chunks(LANES) {
-                        filter.add(simd, samples, &mut row, sum);
-                    }
+            samples.each(&plan, *pixel, list.masks.map(|masks| masks[i]), |places| {
+                match &self.0 {
+                    Kind::Ewa { filter, .. } => filter.add(simd, places, &mut row, sum),
+                    Kind::Summed { read, .. } => read.filter.add(simd, places, sum),
+                    Kind::Ripmap { .. } => {}
                 }
-                Kind::Summed { read, .. } => inside.iter().for_each(|at| add(sum, read.color(*at))),
-                Kind::Ripmap { .. } => {}
-            }
+            });
         }
-    }
-}
-
-/// Calls `visit` with the samples of a pixel that take part.
-#[inline]
-fn each_covered(side: u32, pixel: [u16; 2], mask: Option<u64>, mut visit: impl FnMut([u16; 2])) {
-    let side = u16::try_from(side).unwrap_or(1);
-    let [left, top] = pixel.map(|at| at.saturating_mul(side));
-    let mut number = 0;
-    for y in top..top.saturating_add(side) {
-        for x in left..left.saturating_add(side) {
-            if mask.is_none_or(|mask| number < u64::BITS && mask >> number & 1 == 1) {
-                visit([x, y]);
-            }
-            number += 1;
-        }
-    }
-}
-
-#[inline]
-fn add(sum: &mut [u32; 4], color: Premultiplied16) {
-    for (sum, channel) in sum.iter_mut().zip(color.0) {
-        *sum += u32::from(channel);
-    }
-}
-
-impl Summed<'_> {
-    /// The colour at a point, in texels; whole coordinates are centres.
-    #[inline]
-    fn color(&self, at: DVec2) -> Premultiplied16 {
-        self.table.mean(at + 0.5, &self.area, self.wrap)
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::area_filter::{AreaFilter, Kind, Summed, at};
+use super::box_means::BoxFilter;
 use super::ewa_filter::EwaFilter;
 use super::fixed_point::MASS;
 use super::{SampleGrid, TapRead, TexelRead, TextureReads};
@@ -58,21 +59,19 @@ impl EwaFilter<'_> {
 impl Summed<'_> {
     fn reads(&self, at: DVec2) -> TextureReads {
         let at = at + 0.5;
+        let BoxFilter { table, area, wrap } = self.filter;
         let texel = |(place, weight): ([u32; 2], f64)| TexelRead {
-            level: self.area.level,
+            level: area.level,
             at: place,
             color: self.base.texel(place[0].cast_signed(), place[1].cast_signed()),
             weight,
         };
-        let found = self.table.texels(at, &self.area, self.wrap).unwrap_or_default();
+        let found = table.texels(at, &area, wrap).unwrap_or_default();
         let reads = TextureReads {
             texels: found.into_iter().map(texel).collect(),
-            taps: vec![TapRead {
-                level: self.area.level,
-                at,
-            }],
-            wrap: self.wrap,
-            summed: Some(self.table.read(at, &self.area, self.wrap)),
+            taps: vec![TapRead { level: area.level, at }],
+            wrap,
+            summed: Some(table.read(at, &area, wrap)),
         };
         reads.once()
     }

@@ -15,11 +15,10 @@ use glam::DVec2;
 
 use super::ellipse::{Ellipse, Quadratic, SERIES, weight};
 use super::fixed_point::REACH;
+use super::sample_places::{LANES, Places};
 use super::{MipLevel, Wrap};
 use crate::color::Premultiplied16;
 
-/// Samples that are weighed together.
-pub(super) const LANES: usize = 16;
 /// Parts of a texel that places are rounded to. With them and a few hundred texels, 32-bit floats are exact.
 const PARTS: f64 = 1024.0;
 /// Adding this to a 32-bit float that is smaller rounds it to a whole number.
@@ -52,16 +51,14 @@ struct Samples {
 
 impl EwaFilter<'_> {
     /// The colours at some points, up to [`LANES`], in texels; whole coordinates are centres.
-    pub(super) fn colors(&self, simd: Level, at: &[DVec2], row: &mut RowTexels, out: &mut [Premultiplied16]) {
-        if let Some(samples) = Samples::new(self, at) {
-            let channels = dispatch!(simd, simd => channels(simd, self, &samples, row));
-            for (i, out) in out.iter_mut().enumerate().take(at.len()) {
+    pub(super) fn colors(&self, simd: Level, places: &Places, row: &mut RowTexels, out: &mut [Premultiplied16]) {
+        if let Some(channels) = dispatch!(simd, simd => channels(simd, self, places, row)) {
+            for (i, out) in out.iter_mut().enumerate().take(places.count) {
                 *out = Premultiplied16(channels.map(|channel| whole(channel[i])));
             }
         } else {
-            for (at, out) in at.iter().zip(out) {
-                let channels = Samples::new(self, &[*at])
-                    .map(|samples| dispatch!(simd, simd => channels(simd, self, &samples, row)));
+            for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+                let channels = dispatch!(simd, simd => channels(simd, self, &places.alone(lane), row));
                 *out = channels.map_or(Premultiplied16::TRANSPARENT, |channels| {
                     Premultiplied16(channels.map(|channel| whole(channel[0])))
                 });
@@ -70,22 +67,21 @@ impl EwaFilter<'_> {
     }
 
     /// Adds those colours to `sums`.
-    pub(super) fn add(&self, simd: Level, at: &[DVec2], row: &mut RowTexels, sums: &mut [u32; 4]) {
-        if let Some(samples) = Samples::new(self, at) {
-            let channels = dispatch!(simd, simd => channels(simd, self, &samples, row));
+    pub(super) fn add(&self, simd: Level, places: &Places, row: &mut RowTexels, sums: &mut [u32; 4]) {
+        if let Some(channels) = dispatch!(simd, simd => channels(simd, self, places, row)) {
             for (sum, channel) in sums.iter_mut().zip(&channels) {
-                *sum += total(channel, at.len());
+                *sum += total(channel, places.count);
             }
-        } else if at.len() > 1 {
-            for at in at {
-                self.add(simd, &[*at], row, sums);
+        } else if places.count > 1 {
+            for lane in 0..places.count {
+                self.add(simd, &places.alone(lane), row, sums);
             }
         }
     }
 
     /// Calls `read` with the column and row of each texel that weighs at a point, and with its weight; they sum to one.
     pub(super) fn each(&self, at: DVec2, mut read: impl FnMut([i32; 2], f64)) {
-        let Some(samples) = Samples::new(self, &[at]) else {
+        let Some(samples) = Samples::new(self, &Places::one(at)) else {
             return;
         };
         let quadratic = self.ellipse.quadratic();
@@ -106,21 +102,31 @@ impl EwaFilter<'_> {
         }
     }
 
-    /// A point near the level, where what is repeated is the same.
-    #[inline]
-    fn inside(&self, at: DVec2) -> DVec2 {
-        let axis = |at: f64, side: u32| {
-            let side = f64::from(side);
-            match self.wrap {
-                _ if !at.is_finite() => 0.0,
-                Wrap::Clamp => at.clamp(-REACH, side + REACH),
-                // Two copies, of which the second one may be turned round.
-                Wrap::Repeat | Wrap::Mirror if at >= 0.0 && at < 2.0 * side => at,
-                // Far away there is a lattice of numbers that is coarser than texels.
-                Wrap::Repeat | Wrap::Mirror => (at - (at / (2.0 * side)).floor() * (2.0 * side)).clamp(0.0, 2.0 * side),
+    /// Coordinates near the level, where what is repeated is the same.
+    #[inline(always)]
+    fn inside(&self, at: &[f64; LANES], side: u32) -> [f64; LANES] {
+        let side = f64::from(side);
+        let mut found = [0.0; LANES];
+        if self.wrap == Wrap::Clamp {
+            for (found, at) in found.iter_mut().zip(at) {
+                let near = at.max(-REACH).min(side + REACH);
+                *found = if at.is_finite() { near } else { 0.0 };
             }
-        };
-        DVec2::new(axis(at.x, self.level.width()), axis(at.y, self.level.height()))
+            return found;
+        }
+        // Two copies, of which the second one may be turned round.
+        let period = 2.0 * side;
+        for (found, at) in found.iter_mut().zip(at) {
+            *found = if *at >= 0.0 && *at < period {
+                *at
+            } else if at.is_finite() {
+                // Far away there is a lattice of numbers that is coarser than texels.
+                (at - (at / period).floor() * period).clamp(0.0, period)
+            } else {
+                0.0
+            };
+        }
+        found
     }
 
     /// Fetches the texels of a row from one column to another, which may lie beyond the level.
@@ -143,26 +149,32 @@ impl EwaFilter<'_> {
 impl Samples {
     /// `None` where they lie too far apart to be weighed together, which one alone does not.
     #[inline(always)]
-    fn new(filter: &EwaFilter<'_>, at: &[DVec2]) -> Option<Self> {
+    fn new(filter: &EwaFilter<'_>, places: &Places) -> Option<Self> {
         /// So many texels from each other.
         const FAR: f64 = 64.0;
         /// As [`Samples::reach`].
         const MOST_REACH: f32 = 2.5;
-        let rounded = |at: &DVec2| (filter.inside(*at) * PARTS + 0.5).floor() / PARTS;
-        let first = rounded(at.first()?);
-        let base = first.floor();
-        let from_base = first - base;
-        let [mut x, mut y] = [[narrow(from_base.x); LANES], [narrow(from_base.y); LANES]];
-        let mut last = from_base;
-        for ((at, x), y) in at.iter().zip(&mut x).zip(&mut y) {
-            last = rounded(at) - base;
-            if last.abs().max_element() > FAR {
-                return None;
+        let mut base = [0.0; 2];
+        let mut lanes = [[0.0; LANES]; 2];
+        let mut farthest: f64 = 0.0;
+        let axes = [(&places.x, filter.level.width()), (&places.y, filter.level.height())];
+        for ((base, lanes), (at, side)) in base.iter_mut().zip(&mut lanes).zip(axes) {
+            let mut inside = filter.inside(at, side);
+            for at in &mut inside {
+                *at = (*at * PARTS + 0.5).floor() / PARTS;
             }
-            (*x, *y) = (narrow(last.x), narrow(last.y));
+            *base = inside[0].floor();
+            for (lane, at) in lanes.iter_mut().zip(&inside) {
+                *lane = narrow(at - *base);
+                farthest = farthest.max((at - *base).abs());
+            }
         }
-        let middle = (from_base + last) * 0.5;
-        let middle = [narrow(middle.x), narrow(middle.y)];
+        if farthest > FAR {
+            return None;
+        }
+        let [x, y] = lanes;
+        let last = places.count.clamp(1, LANES) - 1;
+        let middle = [(x[0] + x[last]) * 0.5, (y[0] + y[last]) * 0.5];
         let quadratic = filter.ellipse.quadratic();
         let mut beyond = [0.0; LANES];
         for i in 0..LANES {
@@ -170,7 +182,7 @@ impl Samples {
         }
         let reach = 1.0 + greatest(beyond).max(0.0).sqrt();
         (reach < MOST_REACH).then_some(Self {
-            base: [near(base.x), near(base.y)],
+            base: base.map(near),
             x,
             y,
             middle,
@@ -200,17 +212,18 @@ impl Samples {
 /// More than rounding moves a rim by, in texels.
 const MARGIN: f32 = 1.0 / 64.0;
 
-/// The channels of the colours at samples, as whole numbers.
+/// The channels of the colours at places, as whole numbers; `None` as for [`Samples::new`].
 #[inline(always)]
-fn channels<S: Simd>(simd: S, filter: &EwaFilter<'_>, samples: &Samples, row: &mut RowTexels) -> [Lanes; 4] {
+fn channels<S: Simd>(simd: S, filter: &EwaFilter<'_>, places: &Places, row: &mut RowTexels) -> Option<[Lanes; 4]> {
     simd.vectorize(
         #[inline(always)]
         || {
-            if filter.is_opaque {
-                channels_by::<S, 3>(simd, filter, samples, row)
+            let samples = Samples::new(filter, places)?;
+            Some(if filter.is_opaque {
+                channels_by::<S, 3>(simd, filter, &samples, row)
             } else {
-                channels_by::<S, 4>(simd, filter, samples, row)
-            }
+                channels_by::<S, 4>(simd, filter, &samples, row)
+            })
         },
     )
 }

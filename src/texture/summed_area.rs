@@ -9,7 +9,8 @@
 //! ```
 //!
 //! A border of the box that lies inside a texel takes its part of that texel: sums between corners of texels are linear along
-//! both axes, so that mixing the four corners around a point is exact. All sums are whole numbers that 64-bit floats hold.
+//! both axes, so that mixing the four corners around a point is exact. All sums are whole numbers: those of bytes fit 32 bits,
+//! and `box_means` reads them; those of light are held by 64-bit floats.
 
 use glam::DVec2;
 
@@ -21,12 +22,18 @@ use crate::color::{Premultiplied16, ResolveSpace};
 /// Sums of a level's texels.
 pub struct SummedAreaTable {
     size: [u32; 2],
-    /// One row and one column more than texels; the first ones are nothing.
-    sums: Vec<[f64; 4]>,
-    values: PyramidValues,
-    /// What light is multiplied by to be whole numbers; 1 for bytes.
-    scale: f64,
+    sums: Sums,
 }
+
+/// The numbers of a table, row by row: one row and one column more than texels; the first ones are nothing.
+enum Sums {
+    Bytes(Vec<[u32; 4]>),
+    /// In steps of one part in [`STEPS`], and how their means become texels.
+    Light(Vec<[f64; 4]>, PyramidValues),
+}
+
+/// What light, which is 0 to 1, is multiplied by to be whole numbers.
+const STEPS: f64 = 65_535.0;
 
 /// What a sample read of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,44 +69,42 @@ type Stretches = [Stretch; 4];
 impl SummedAreaTable {
     /// The sums of a level in these values.
     pub(super) fn build(level: &MipLevel, space: ResolveSpace) -> Self {
-        /// Steps of light, which is 0 to 1.
-        const STEPS: f64 = 65_535.0;
-        let scale = if space == ResolveSpace::Linear { STEPS } else { 1.0 };
-        let values = PyramidValues::new(space, PyramidFilter::Box);
         let size = [level.width(), level.height()];
-        let stride = size[0] as usize + 1;
-        let mut sums = vec![[0.0; 4]; stride * (size[1] as usize + 1)];
-        for y in 0..size[1] {
-            let start = stride * y as usize;
-            let mut row = [0.0; 4];
-            for x in 0..size[0] {
-                let value = values.value(level.texel(x.cast_signed(), y.cast_signed()));
-                let above = sums[start + x as usize + 1];
-                row = std::array::from_fn(|i| row[i] + (f64::from(value[i]) * scale).round());
-                sums[start + stride + x as usize + 1] = std::array::from_fn(|i| above[i] + row[i]);
+        let sums = match space {
+            // The largest level that is summed has a few million texels, so that nothing overflows.
+            ResolveSpace::Stored => Sums::Bytes(summed(level, [0; 4], |sum, texel| {
+                std::array::from_fn(|i| sum[i].wrapping_add(u32::from(texel[i])))
+            })),
+            ResolveSpace::Linear => {
+                let values = PyramidValues::new(space, PyramidFilter::Box);
+                let numbers = summed(level, [0.0; 4], |sum, texel| {
+                    let value = values.value(texel);
+                    std::array::from_fn(|i| sum[i] + (f64::from(value[i]) * STEPS).round())
+                });
+                Sums::Light(numbers, values)
             }
-        }
-        Self {
-            size,
-            sums,
-            values,
-            scale,
+        };
+        Self { size, sums }
+    }
+
+    /// The sums of bytes, where bytes are summed.
+    #[inline]
+    pub(super) fn of_bytes(&self) -> Option<&[[u32; 4]]> {
+        match &self.sums {
+            Sums::Bytes(sums) => Some(sums),
+            Sums::Light(..) => None,
         }
     }
 
-    /// The mean of a box about a point, both in texels from the corner of the first one.
+    /// Width and height in texels.
     #[inline]
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The mean of a box anywhere about a point, both in texels from the corner of the first one.
     pub(super) fn mean(&self, at: DVec2, area: &TexelBox, wrap: Wrap) -> Premultiplied16 {
-        let half = area.sides * 0.5;
-        let (from, to) = (at - half, at + half);
-        let [right, bottom] = self.size.map(f64::from);
-        let is_inside = from.x >= 0.0 && from.y >= 0.0 && to.x <= right && to.y <= bottom;
-        let (sum, texels) = if is_inside {
-            let sum = self.over([from.x, to.x], [from.y, to.y]);
-            (sum, (to.x - from.x) * (to.y - from.y))
-        } else {
-            self.wrapped(at, area, wrap)
-        };
+        let (sum, texels) = self.wrapped(at, area, wrap);
         self.color(sum, texels)
     }
 
@@ -139,7 +144,7 @@ impl SummedAreaTable {
 
     /// Whether light is summed, instead of stored values.
     fn is_of_light(&self) -> bool {
-        self.scale > 1.0
+        matches!(self.sums, Sums::Light(..))
     }
 
     /// The sum over a box anywhere, and its area.
@@ -181,10 +186,12 @@ impl SummedAreaTable {
         let [column, row] = [whole(x).min(self.size[0] - 1), whole(y).min(self.size[1] - 1)];
         let (across, down) = (x - f64::from(column), y - f64::from(row));
         let start = row as usize * stride + column as usize;
-        let (upper, lower) = (
-            &self.sums[start..start + 2],
-            &self.sums[start + stride..start + stride + 2],
-        );
+        let number = |at: usize| match &self.sums {
+            Sums::Bytes(sums) => sums[at].map(f64::from),
+            Sums::Light(sums, _) => sums[at],
+        };
+        let upper = [number(start), number(start + 1)];
+        let lower = [number(start + stride), number(start + stride + 1)];
         std::array::from_fn(|i| {
             let above = upper[0][i] + (upper[1][i] - upper[0][i]) * across;
             let below = lower[0][i] + (lower[1][i] - lower[0][i]) * across;
@@ -195,9 +202,9 @@ impl SummedAreaTable {
     /// The colour of a mean.
     #[inline]
     fn color(&self, sum: [f64; 4], area: f64) -> Premultiplied16 {
-        if self.is_of_light() {
-            let mean = sum.map(|sum| narrow(sum / area / self.scale));
-            return Premultiplied16::from_bytes(self.values.texel(mean));
+        if let Sums::Light(_, values) = &self.sums {
+            let mean = sum.map(|sum| narrow(sum / area / STEPS));
+            return Premultiplied16::from_bytes(values.texel(mean));
         }
         let per_byte = f64::from(Premultiplied16::PER_BYTE) / area;
         Premultiplied16(sum.map(|sum| channel(sum * per_byte)))
@@ -214,6 +221,27 @@ impl Stretch {
     fn length(&self) -> f64 {
         (self.to - self.from) * self.times
     }
+}
+
+/// The table of a level: `add` adds a texel to a sum.
+fn summed<T: Copy + std::ops::Add<Output = T>>(
+    level: &MipLevel,
+    nothing: [T; 4],
+    add: impl Fn([T; 4], [u8; 4]) -> [T; 4],
+) -> Vec<[T; 4]> {
+    let stride = level.width() as usize + 1;
+    let mut sums = vec![nothing; stride * (level.height() as usize + 1)];
+    for y in 0..level.height() {
+        let start = stride * y as usize;
+        let mut row = nothing;
+        for x in 0..level.width() {
+            let at = start + x as usize + 1;
+            row = add(row, level.texel(x.cast_signed(), y.cast_signed()));
+            let above = sums[at];
+            sums[at + stride] = std::array::from_fn(|i| above[i] + row[i]);
+        }
+    }
+    sums
 }
 
 /// Where the side of a box lies in a row of `side` texels, and how often each stretch of it counts.

@@ -1,0 +1,231 @@
+//! Means over boxes at samples, from a table of sums of bytes.
+//!
+//! ```text
+//!      f0                f1      of the columns of corners around the left border, and around the right one, the parts f0 and
+//!     |~~#|############|~~|      f1 of a texel lie left of them; rows likewise
+//! ```
+//!
+//! Differences of sums are whole numbers and exact; parts of a texel are weighed in 32-bit floats, and a mean errs by less than
+//! one part in a million of the brightest: a tenth of the steps in which channels are stored.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, i32x8, u32x8};
+
+use super::sample_places::{LANES, Places};
+use super::summed_area::SummedAreaTable;
+use super::{TexelBox, Wrap};
+use crate::color::Premultiplied16;
+
+/// Adding this to a 32-bit float that is smaller rounds it to a whole number.
+const ROUNDING: f32 = 8_388_608.0;
+
+/// A table read by a box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxFilter<'a> {
+    pub(super) table: &'a SummedAreaTable,
+    pub(super) area: TexelBox,
+    pub(super) wrap: Wrap,
+}
+
+/// Where the two borders of boxes lie between the table's columns, or rows.
+struct Borders {
+    /// The last ones before them.
+    at: [[u32; LANES]; 2],
+    /// What to weigh the sums by: from the last one before the left border to the last one before the right border, from the
+    /// next ones to the next, and from the last one before the left border to the next.
+    parts: [[f32; LANES]; 3],
+    /// Whether the box lies inside the level.
+    is_inside: [bool; LANES],
+}
+
+impl BoxFilter<'_> {
+    /// Whether a box is one texel of bytes: its mean mixes the four texels around its middle, as [`super::PixelSampling::Bilinear`]
+    /// does.
+    pub(super) fn is_bilinear(&self) -> bool {
+        self.area.sides == glam::DVec2::ONE && self.table.of_bytes().is_some()
+    }
+
+    /// The colours at some places; those of the lanes that repeat the first are any.
+    pub(super) fn colors(&self, simd: Level, places: &Places) -> [Premultiplied16; LANES] {
+        let mut out = [Premultiplied16::TRANSPARENT; LANES];
+        if let Some(sums) = self.table.of_bytes() {
+            dispatch!(simd, simd => each_mean(simd, self, sums, places, |lane, mean| {
+                out[lane] = match mean {
+                    Some(mean) => Premultiplied16(<[f32; 4]>::from(mean).map(whole)),
+                    None => self.anywhere(places, lane),
+                };
+            }));
+        } else {
+            for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+                *out = self.anywhere(places, lane);
+            }
+        }
+        out
+    }
+
+    /// Adds those colours to `sums`.
+    pub(super) fn add(&self, simd: Level, places: &Places, sums: &mut [u32; 4]) {
+        let mut add = |color: Premultiplied16| {
+            for (sum, channel) in sums.iter_mut().zip(color.0) {
+                *sum += u32::from(channel);
+            }
+        };
+        if let Some(numbers) = self.table.of_bytes() {
+            let all = dispatch!(simd, simd => total(simd, self, numbers, places, &mut add));
+            for (sum, all) in sums.iter_mut().zip(all) {
+                *sum += whole_sum(all);
+            }
+        } else {
+            (0..places.count).for_each(|lane| add(self.anywhere(places, lane)));
+        }
+    }
+
+    /// The colour at a place whose box may lie across a border.
+    #[inline(never)]
+    fn anywhere(&self, places: &Places, lane: usize) -> Premultiplied16 {
+        self.table.mean(places.at(lane) + 0.5, &self.area, self.wrap)
+    }
+}
+
+impl Borders {
+    /// On an axis of so many texels, of boxes that are twice `half` long about these places.
+    #[inline(always)]
+    fn new(side: u32, at: &[f64; LANES], half: f64) -> Self {
+        /// Adding this to a number rounds it to a whole one, which stands in the lowest bits.
+        const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
+        let last = f64::from(side - 1);
+        let mut found = Self {
+            at: [[0; LANES]; 2],
+            parts: [[0.0; LANES]; 3],
+            is_inside: [false; LANES],
+        };
+        for (i, at) in at.iter().enumerate() {
+            let middle = at + 0.5;
+            let (from, to) = (middle - half, middle + half);
+            found.is_inside[i] = from >= 0.0 && to <= f64::from(side);
+            // A border on a column of corners may as well be the end of one texel as the start of the next.
+            let before = |border: f64| (border - 0.5).max(0.0).min(last) + WHOLE;
+            let [first, second] = [before(from), before(to)];
+            let [f0, f1] = [narrow(from - (first - WHOLE)), narrow(to - (second - WHOLE))];
+            (found.at[0][i], found.at[1][i]) = (lowest(first), lowest(second));
+            (found.parts[0][i], found.parts[1][i], found.parts[2][i]) = (1.0 - f1, f1, f1 - f0);
+        }
+        found
+    }
+}
+
+/// The sum of the channels at places, whole numbers; the colours of those whose boxes lie across a border are given to `add`.
+#[inline(always)]
+fn total<S: Simd>(
+    simd: S,
+    filter: &BoxFilter<'_>,
+    sums: &[[u32; 4]],
+    places: &Places,
+    mut add: impl FnMut(Premultiplied16),
+) -> [f32; 4] {
+    let mut all = f32x4::splat(simd, 0.0);
+    each_mean(simd, filter, sums, places, |lane, mean| match mean {
+        Some(mean) => all += mean,
+        None => add(filter.anywhere(places, lane)),
+    });
+    all.into()
+}
+
+/// Calls `visit` with each lane and the channels of its mean, which are whole numbers; `None` where its box lies across a border.
+#[inline(always)]
+fn each_mean<S: Simd>(
+    simd: S,
+    filter: &BoxFilter<'_>,
+    sums: &[[u32; 4]],
+    places: &Places,
+    mut visit: impl FnMut(usize, Option<f32x4<S>>),
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let [width, height] = filter.table.size();
+            let stride = width as usize + 1;
+            let half = filter.area.sides * 0.5;
+            let [x, y] = [
+                Borders::new(width, &places.x, half.x),
+                Borders::new(height, &places.y, half.y),
+            ];
+            let per_texel = narrow(f64::from(Premultiplied16::PER_BYTE) / filter.area.sides.element_product());
+            for lane in 0..places.count.min(LANES) {
+                if !(x.is_inside[lane] && y.is_inside[lane]) {
+                    visit(lane, None);
+                    continue;
+                }
+                let (left, right) = (x.at[0][lane] as usize, x.at[1][lane] as usize);
+                let (top, bottom) = (y.at[0][lane] as usize * stride, y.at[1][lane] as usize * stride);
+                let left = strips(simd, sums, stride, [top + left, bottom + left]);
+                let right = strips(simd, sums, stride, [top + right, bottom + right]);
+                let mut wide = f32x8::splat(simd, 0.0);
+                let mut narrow = f32x4::splat(simd, 0.0);
+                for i in 0..3 {
+                    let signed: i32x8<S> = (right[i] - left[i]).bitcast();
+                    wide += signed.to_float::<f32x8<S>>() * y.parts[i][lane];
+                    let (before, after) = left[i].split();
+                    let signed: i32x4<S> = (after - before).bitcast();
+                    narrow += signed.to_float::<f32x4<S>>() * y.parts[i][lane];
+                }
+                let (before, after) = wide.split();
+                let sum = before * x.parts[0][lane] + after * x.parts[1][lane] + narrow * x.parts[2][lane];
+                visit(lane, Some(sum * per_texel + ROUNDING - ROUNDING));
+            }
+        },
+    );
+}
+
+/// A number of a table and the next.
+#[inline(always)]
+fn two<S: Simd>(simd: S, sums: &[[u32; 4]], at: usize) -> u32x8<S> {
+    u32x8::from_slice(simd, sums[at..at + 2].as_flattened())
+}
+
+/// From four rows of a table, each of the last and the next numbers before a border, the differences that [`Borders::parts`]
+/// weighs: both rows above the box and both below it begin at `[above, below]` and one row later.
+#[inline(always)]
+fn strips<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, [above, below]: [usize; 2]) -> [u32x8<S>; 3] {
+    let (first, second) = (two(simd, sums, above), two(simd, sums, above + stride));
+    let (third, fourth) = (two(simd, sums, below), two(simd, sums, below + stride));
+    [third - first, fourth - second, second - first]
+}
+
+/// The whole number in the lowest bits.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "it is that of a column or a row")]
+fn lowest(at: f64) -> u32 {
+    at.to_bits() as u32
+}
+
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "parts of a texel, and of a box")]
+fn narrow(part: f64) -> f32 {
+    part as f32
+}
+
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number of at most 65280"
+)]
+fn whole(channel: f32) -> u16 {
+    channel as u16
+}
+
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number of at most sixteen times 65280"
+)]
+fn whole_sum(channel: f32) -> u32 {
+    channel as u32
+}

@@ -43,13 +43,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &Viewer, commands: &mut Vec<Command>) {
     let now = viewer.settings();
     let scene = viewer.scene_list().current().and_then(SceneEntry::scene);
-    let has_no_texture = scene.is_some_and(|scene| scene.textures.is_empty());
     let shown = settings.iter().filter_map(|setting| {
-        let reads_none = has_no_texture && setting.about == About::Textures;
         Some(ShownSetting {
             setting,
             panel: setting.panel.as_ref()?,
-            idle: reads_none.then_some("this scene has no texture").or(setting.idle(now)),
+            idle: setting.idle(now, scene),
         })
     });
     let shown: Vec<ShownSetting> = shown.collect();

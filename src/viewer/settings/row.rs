@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{Settings, values};
 use crate::render::RenderSettings;
+use crate::scene::Scene;
 use crate::viewer::key_chords::Chord;
 
 /// A setting that decides the pixels of a picture, besides scene and view.
@@ -200,10 +201,15 @@ impl PictureSetting {
         self.value(settings) == self.default_value()
     }
 
-    /// Why its value makes no difference to any picture with these settings, in words that go behind "no effect:"; `None` where it
-    /// makes one, or may.
-    pub fn idle(&self, settings: &Settings) -> Option<&'static str> {
-        (self.idle)(&settings.render)
+    /// Why its value makes no difference to a picture of this scene with these settings, in words that go behind "no effect:";
+    /// `None` where it makes one, or may.
+    pub fn idle(&self, settings: &Settings, scene: Option<&Scene>) -> Option<&'static str> {
+        // The tiles of patterns are read as textures are.
+        let reads_none = scene.is_some_and(|scene| scene.textures.is_empty() && scene.patterns.is_empty());
+        let is_spare = reads_none && self.about == About::Textures;
+        is_spare
+            .then_some("this scene has no texture")
+            .or_else(|| (self.idle)(&settings.render))
     }
 
     /// Such as `sample rate 16` or `bias +1`.

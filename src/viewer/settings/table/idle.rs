@@ -23,9 +23,13 @@ pub(super) fn seed(now: &RenderSettings) -> Option<&'static str> {
     samples(now).or(is_fixed.then_some("this pattern has no chance in it"))
 }
 
-/// Of what only pictures of colours have.
+/// Of what only pictures of colours have, or what shows them besides something else.
 pub(super) fn colours(now: &RenderSettings) -> Option<&'static str> {
-    (now.visualisation != Visualisation::Color).then_some(NO_COLOURS)
+    let has_colours = matches!(
+        now.visualisation,
+        Visualisation::Color | Visualisation::Wireframe | Visualisation::MipLevels
+    );
+    (!has_colours).then_some(NO_COLOURS)
 }
 
 /// Of the values in which samples are averaged.
@@ -35,21 +39,16 @@ pub(super) fn resolve(now: &RenderSettings) -> Option<&'static str> {
     (is_single && !blends).then_some("one sample per pixel needs no mean")
 }
 
-/// Of what reads texels around a point, or at several.
-pub(super) fn point(now: &RenderSettings) -> Option<&'static str> {
-    now.level_sampling
-        .weighs_area()
+/// Of what reads a texture at several points.
+pub(super) fn taps(now: &RenderSettings) -> Option<&'static str> {
+    (shows_colours(now) && now.level_sampling.weighs_area())
         .then_some("level sampling weighs an area of texels by itself")
 }
 
-/// Of the bias.
-pub(super) fn bias(now: &RenderSettings) -> Option<&'static str> {
-    reads_level_zero(now).then_some(LEVEL_ZERO)
-}
-
-/// Of what levels are made by.
-pub(super) fn pyramid(now: &RenderSettings) -> Option<&'static str> {
-    bias(now)
+/// Of what chooses a coarser level, or makes it.
+pub(super) fn levels(now: &RenderSettings) -> Option<&'static str> {
+    let reads_zero = now.level_sampling == LevelSampling::Zero && now.detail.fixed.is_none();
+    (shows_colours(now) && reads_zero).then_some("only mip level zero is read")
 }
 
 /// Of whose footprint is measured.
@@ -58,18 +57,16 @@ pub(super) fn lod_per(now: &RenderSettings) -> Option<&'static str> {
         return Some("one sample's footprint is that of its pixel");
     }
     let is_off = now.anisotropy == Anisotropy::OFF;
-    bias(now).filter(|_| is_off)
+    levels(now).filter(|_| is_off)
 }
 
 /// Of what of a footprint counts.
 pub(super) fn lod_by(now: &RenderSettings) -> Option<&'static str> {
-    let is_fixed = now.detail.fixed.is_some();
-    point(now).or(bias(now)).or(is_fixed.then_some("the level is fixed"))
+    let is_fixed = shows_colours(now) && now.detail.fixed.is_some();
+    taps(now).or(levels(now)).or(is_fixed.then_some("the level is fixed"))
 }
 
-/// Where no coarser level is read.
-const LEVEL_ZERO: &str = "only mip level zero is read";
-
-fn reads_level_zero(now: &RenderSettings) -> bool {
-    now.level_sampling == LevelSampling::Zero && now.detail.fixed.is_none()
+/// Whether nothing of a footprint is shown but what it reads.
+fn shows_colours(now: &RenderSettings) -> bool {
+    now.visualisation == Visualisation::Color
 }

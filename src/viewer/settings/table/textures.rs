@@ -27,7 +27,6 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Reads the nearest texel, bilinear the four around a point, or sixteen by a cubic kernel",
             )
         }],
-        idle: idle::point,
         ..named!("pixel-sampling", "pixel sampling", PixelSampling, render.pixel_sampling)
     },
     PictureSetting {
@@ -92,7 +91,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         }],
         signed: false,
         goes_round: true,
-        idle: idle::point,
+        idle: idle::taps,
         former: |_| None,
         get: |settings| settings.render.anisotropy.taps().to_string(),
         set: |settings, text| {
@@ -162,7 +161,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         ],
         signed: true,
         goes_round: false,
-        idle: idle::bias,
+        idle: idle::levels,
         former: |_| None,
         get: |settings| settings.render.detail.bias.levels().to_string(),
         set: |settings, text| {
@@ -273,7 +272,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Averages the texels of coarser mip levels in stored values or in linear light",
             )
         }],
-        idle: idle::pyramid,
+        idle: idle::levels,
         ..named!("pyramid", "pyramid", ResolveSpace, render.pyramid)
     },
     PictureSetting {
@@ -291,7 +290,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 "Makes coarser mip levels by the mean over a texel, by a tent, or by a sinc under a Kaiser window",
             )
         }],
-        idle: idle::pyramid,
+        idle: idle::levels,
         ..named!("pyramid-filter", "pyramid filter", PyramidFilter, render.pyramid_filter)
     },
 ];

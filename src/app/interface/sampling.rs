@@ -1,5 +1,7 @@
 //! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
+use std::sync::Arc;
+
 use egui::{Align, DragValue, Layout, RichText, Ui, vec2};
 
 use super::controls::{choice, command_button, drop_down, gave_up, row, tip};
@@ -42,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// Settings below each other; those without a label stand beside the one before them.
 pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &Viewer, commands: &mut Vec<Command>) {
     let now = viewer.settings();
-    let scene = viewer.scene_list().current().and_then(SceneEntry::scene);
+    let scene = viewer.scene_list().current().and_then(SceneEntry::scene).map(Arc::as_ref);
     let shown = settings.iter().filter_map(|setting| {
         Some(ShownSetting {
             setting,

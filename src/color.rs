@@ -193,7 +193,7 @@ impl Premultiplied16 {
     /// The same colour with every channel cut to a byte.
     #[inline]
     #[must_use]
-    fn truncated(self) -> Self {
+    pub(crate) fn truncated(self) -> Self {
         Self(self.0.map(|channel| channel / Self::PER_BYTE * Self::PER_BYTE))
     }
 

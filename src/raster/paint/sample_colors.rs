@@ -155,7 +155,13 @@ impl SampleColors {
         }
         let first = self.index(xs.start, y);
         for below in &mut self.whole[first..first + xs.length()] {
-            *below = self.space.mix(*below, color.over(*below, self.rules), area.parts());
+            let mixed = self.space.mix(*below, color.over(*below, self.rules), area.parts());
+            // Bytes are stored after every write: else what is painted with nothing later would truncate them, tile by tile.
+            *below = if self.rules == Rules::Course {
+                mixed.truncated()
+            } else {
+                mixed
+            };
         }
     }
 

@@ -7,6 +7,7 @@ use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::rules::Rules;
 use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
@@ -221,6 +222,24 @@ fn explanations_end_in_the_frames_bytes() {
         }
     }
     assert!(composited > 300, "{composited} primitives");
+}
+
+#[test]
+fn a_layer_beside_a_pixel_does_not_show() {
+    let part = r##"<path d="M0 0H3.3V8H0z" fill="#4A7B21"/>"##;
+    let layer = r#"<g opacity=".5"><path d="M6 6h1v1h-1z"/></g>"#;
+    for rules in Rules::ALL {
+        for resolve in ResolveSpace::ALL {
+            let settings = RenderSettings {
+                rules,
+                resolve,
+                ..exact()
+            };
+            let [alone, beside] =
+                ["", layer].map(|layer| picture(&svg(&format!("{part}{layer}")), &settings, [8, 8]).pixels()[8 + 3]);
+            assert_eq!(alone, beside, "{rules:?}, {resolve:?}");
+        }
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::viewer::{
 /// Levels per point of dragging.
 const SPEED: f64 = 0.02;
 /// The opacity of a control without effect.
-const PALE: f32 = 0.45;
+const PALE: f32 = 0.55;
 /// Half a step: how far below the smallest number [`Control::Number`]'s `none` stands, so that dragging to the left reaches it.
 const BELOW: f64 = 0.5;
 

@@ -12,6 +12,18 @@ const SIZE: [u32; 2] = [14, 11];
 /// Textures, magnified and minified; gradients, a tile of a pattern and edges.
 const OF_SCENES: [&str; 4] = ["07_checker_floor.svg", "texmap/test1.svg", "", "plain"];
 
+/// Settings that need few others to have an effect, and to have none: they are looked for until both were met, which takes longer
+/// on slow machines.
+const SOON: [&str; 7] = [
+    "sample-rate",
+    "pattern",
+    "coverage",
+    "resolve-filter",
+    "post-process",
+    "lod-bias",
+    "anisotropy",
+];
+
 fn scenes() -> Vec<(Scene, ViewTransform)> {
     let own = r##"<svg xmlns="http://www.w3.org/2000/svg" width="28" height="22">
         <linearGradient id="g"><stop stop-color="#f00"/><stop offset="1" stop-color="#0f0" stop-opacity=".4"/></linearGradient>
@@ -66,16 +78,6 @@ fn settings_without_effect_move_no_byte() {
         drawn(scene, view, &settings.render, SIZE).pixels().to_vec()
     };
     let (mut idle, mut counts) = (Vec::new(), Vec::new());
-    // Until those that need few others have been with an effect and without; slow machines take longer.
-    const SOON: [&str; 7] = [
-        "sample-rate",
-        "pattern",
-        "coverage",
-        "resolve-filter",
-        "post-process",
-        "lod-bias",
-        "anisotropy",
-    ];
     for _ in 0..20 {
         arbtest::arbtest(|u| {
             let settings = any(u, &all)?;

@@ -44,7 +44,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// Settings below each other; those without a label stand beside the one before them.
 pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &Viewer, commands: &mut Vec<Command>) {
     let now = viewer.settings();
-    let scene = viewer.scene_list().current().and_then(SceneEntry::scene).map(Arc::as_ref);
+    let scene = viewer
+        .scene_list()
+        .current()
+        .and_then(SceneEntry::scene)
+        .map(Arc::as_ref);
     let shown = settings.iter().filter_map(|setting| {
         Some(ShownSetting {
             setting,

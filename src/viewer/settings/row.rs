@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{Settings, values};
+use crate::raster::SamplePattern;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
 use crate::viewer::key_chords::Chord;
@@ -366,7 +367,9 @@ impl SettingChange {
             To::Step(by) => (self.setting.step)(settings, *by),
         }
         let render = &mut settings.render;
-        let refusal = render.pattern.refusal(render.sample_rate);
+        // Who chooses a pattern that has one rate alone chooses that, too.
+        let chooses_rate = self.setting.reads_files() && matches!(render.pattern, SamplePattern::Custom(_));
+        let refusal = render.pattern.refusal(render.sample_rate).filter(|_| !chooses_rate);
         render.sample_rate = render.pattern.nearest(render.sample_rate);
         refusal
     }

@@ -445,8 +445,8 @@ fn custom_patterns_sample_as_brute_force_does() {
     let scene = scene(
         16.0,
         vec![
-            triangle([[1.0, 2.0], [14.0, 3.1], [6.0, 13.0]], Rgba::opaque(0.9, 0.4, 0.2)),
-            triangle([[2.0, 12.0], [13.0, 6.0], [15.3, 15.0]], Rgba::opaque(0.2, 0.4, 0.8)),
+            triangle([[1.0, 2.0], [14.0, 3.1], [6.0, 13.0]], Rgba::opaque(1.0, 0.0, 0.0)),
+            triangle([[2.0, 12.0], [13.0, 6.0], [15.3, 15.0]], Rgba::opaque(0.0, 0.0, 1.0)),
         ],
     );
     let view = one_to_one([16, 16]);

@@ -9,7 +9,7 @@
 //! ]
 //! ```
 //!
-//! Records, captions and scripts carry the samples themselves, not the file: [`value_of`] says them, [`named`] reads them.
+//! Records, captions and scripts carry the samples themselves, not the file, in a form that [`named`] reads.
 
 use std::path::Path;
 use std::sync::LazyLock;

@@ -331,8 +331,8 @@ fn pictures_of_every_pattern_are_those_of_one_thread() {
 
 const STUDY: [u32; 2] = [1024, 1024];
 
-/// A scene of the gallery, drawn at 1024 x 1024 in the default view.
-fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
+/// A scene of the gallery.
+fn gallery_scene(name: &str) -> Scene {
     let scene = gallery::SCENES
         .iter()
         .find(|scene| scene.name == name)
@@ -340,7 +340,12 @@ fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
     let options = ReadOptions {
         dialect: DialectChoice::Auto,
     };
-    let scene = read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene");
+    read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene")
+}
+
+/// A scene of the gallery, drawn at 1024 x 1024 in the default view.
+fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
+    let scene = gallery_scene(name);
     let view = View::Default.transform(scene.canvas, STUDY);
     drawn(&scene, &view, &settings(pattern, samples), STUDY)
 }
@@ -485,4 +490,38 @@ fn custom_weights_count_samples_as_often() {
     let same = "own:96/32+224/96+32/160+160/224";
     let points = |text: &str| positions(custom(text), 4, [0, 0]);
     assert_eq!(points("msaa-4"), points(same), "the same samples by another name");
+}
+
+#[test]
+fn studies_of_edges_are_where_msaa_8_wins_and_where_it_loses() {
+    const SMALL: [u32; 2] = [512, 384];
+    let frame = |name: &str, pattern, samples| {
+        let scene = gallery_scene(name);
+        let view = View::Default.transform(scene.canvas, SMALL);
+        drawn(&scene, &view, &settings(pattern, samples), SMALL)
+    };
+    // Root of the mean square of what reds differ by.
+    let error = |name: &str, pattern, samples| {
+        let (found, truth) = (frame(name, pattern, samples), frame(name, SamplePattern::Grid, 256));
+        let places = (0..SMALL[1]).flat_map(|y| (0..SMALL[0]).map(move |x| (x, y)));
+        let sum: f64 = places
+            .map(|(x, y)| (red(&found, x, y) - red(&truth, x, y)).powi(2))
+            .sum();
+        (sum / f64::from(SMALL[0] * SMALL[1])).sqrt()
+    };
+    for (name, wins) in [
+        ("study/33_nearly_level_edges.svg", true),
+        ("study/34_leaning_edges.svg", false),
+    ] {
+        let eight = error(name, custom("msaa-8"), 8);
+        let [four, nine] = [4, 9].map(|samples| error(name, SamplePattern::Grid, samples));
+        if wins {
+            assert!(
+                2.0 * eight < nine && 3.0 * eight < four,
+                "{name}: {eight}, grid {four} and {nine}"
+            );
+        } else {
+            assert!(eight > 1.3 * nine, "{name}: {eight}, grid {nine}");
+        }
+    }
 }

@@ -130,6 +130,10 @@ pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 14] = [
         &[
             ("rasterscope pattern --sample-rate 16", "all patterns beside each other"),
             ("rasterscope pattern sobol --seed 7 --json", "one, with all its points"),
+            (
+                "rasterscope pattern msaa-8 own.toml",
+                "graphics hardware's beside one of a file",
+            ),
         ],
     ),
     (

@@ -10,7 +10,7 @@ use crate::plain;
 use crate::raster::SamplePattern;
 use crate::render::Visualisation;
 use crate::viewer::picture::{self, Values};
-use crate::viewer::{PictureSetting, commands};
+use crate::viewer::{PictureSetting, commands, patterns};
 
 /// Where the page of keys holds the table that every command has its line in.
 const KEYS: &str = "<!-- keys -->";
@@ -115,6 +115,10 @@ fn settings() -> String {
     let line = |setting: &PictureSetting| {
         let values = match setting.values {
             Values::Named(names) => names().into_iter().map(code).collect::<Vec<_>>().join(", "),
+            Values::NamedOrWritten { names, more, .. } => {
+                let names: Vec<String> = names().into_iter().chain(more()).map(code).collect();
+                format!("{}, `FILE.toml`", names.join(", "))
+            }
             Values::Open { range, .. } => range.to_owned(),
         };
         let default = setting.default_value();
@@ -132,10 +136,17 @@ fn settings() -> String {
 fn patterns() -> String {
     let line = |pattern: SamplePattern| {
         let [name, description, source] = [pattern.name(), pattern.description(), pattern.source()];
-        let counts = if pattern.needs_square() { "squares" } else { "any" };
+        let counts = match pattern {
+            SamplePattern::Custom(custom) => custom.rate().samples().to_string(),
+            _ if pattern.needs_square() => "squares".to_owned(),
+            _ => "any".to_owned(),
+        };
         format!("| `{name}` | {description} | {counts} | {source} |\n")
     };
-    let lines: String = SamplePattern::ALL.into_iter().map(line).collect();
+    let all = SamplePattern::ALL
+        .into_iter()
+        .chain(patterns::shipped().iter().copied());
+    let lines: String = all.map(line).collect();
     format!("| pattern | samples of a pixel | how many | after |\n|---|---|---|---|\n{lines}")
 }
 

@@ -5,6 +5,10 @@ use serde::Serialize;
 use super::failure::{Failure, print, print_json};
 use super::options::pattern::PatternOptions;
 use crate::raster::{PatternStatistics, SamplePattern, SampleRate, Seed};
+use crate::viewer::{patterns, picture};
+
+/// Samples per pixel where nothing is said.
+const USUAL_RATE: u32 = 16;
 
 /// What is told of a pattern.
 #[derive(Debug, Serialize)]
@@ -36,20 +40,22 @@ struct Spectrum {
 
 /// Prints what was measured of each pattern.
 pub(super) fn run(options: &PatternOptions) -> Result<(), Failure> {
-    let rate = SampleRate::new(options.sample_rate)
-        .ok_or_else(|| Failure::input(format!("--sample-rate {}: 1 to 256", options.sample_rate)))?;
-    if let Some(refusal) = options.patterns.iter().find_map(|pattern| pattern.refusal(rate)) {
-        return Err(Failure::input(format!("--sample-rate {}: {refusal}", rate.samples())));
+    let number = options.sample_rate.unwrap_or(USUAL_RATE);
+    let rate = SampleRate::new(number).ok_or_else(|| Failure::input(format!("--sample-rate {number}: 1 to 256")))?;
+    let named: Result<Vec<SamplePattern>, Failure> = options.patterns.iter().map(|text| named(text)).collect();
+    let mut patterns = named?;
+    if options.sample_rate.is_some()
+        && let Some(refusal) = patterns.iter().find_map(|pattern| pattern.refusal(rate))
+    {
+        return Err(Failure::input(format!("--sample-rate {number}: {refusal}")));
     }
-    let all = SamplePattern::ALL.into_iter().filter(|pattern| pattern.takes(rate));
-    let patterns = if options.patterns.is_empty() {
-        all.collect()
-    } else {
-        options.patterns.clone()
-    };
+    if patterns.is_empty() {
+        let all = SamplePattern::ALL.iter().chain(patterns::shipped()).copied();
+        patterns = all.filter(|pattern| pattern.takes(rate)).collect();
+    }
     let reports: Vec<Report> = patterns
         .into_iter()
-        .map(|pattern| report(pattern, rate, options))
+        .map(|pattern| report(pattern, pattern.nearest(rate), options))
         .collect();
     if options.json {
         let json = match reports.as_slice() {
@@ -61,6 +67,13 @@ pub(super) fn run(options: &PatternOptions) -> Result<(), Failure> {
     let head = "pattern         samples  discrepancy  distance  columns  rows  low power".to_owned();
     let lines: Vec<String> = std::iter::once(head).chain(reports.iter().map(Report::line)).collect();
     print(&lines.join("\n"))
+}
+
+/// The pattern that a name or a file means.
+fn named(text: &str) -> Result<SamplePattern, Failure> {
+    let setting = picture::find("pattern").ok_or_else(|| Failure::other("no setting of patterns"))?;
+    let value = setting.read(text, None).map_err(Failure::Input)?;
+    patterns::named(&value).ok_or_else(|| Failure::input(format!("{text}: no pattern; give {}", setting.form())))
 }
 
 fn report(pattern: SamplePattern, rate: SampleRate, options: &PatternOptions) -> Report {

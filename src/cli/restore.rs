@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::picture::spec_of_render;
 use crate::figure::Record;
 use crate::scene;
-use crate::viewer::{Grammar, PictureSpec, Restored, SheetRequest};
+use crate::viewer::{Grammar, PictureSetting, PictureSpec, Restored, SheetRequest, picture};
 
 /// Longest side of a window that comes back from a picture, in pixels.
 const MAX_RESTORED_WINDOW: u32 = 4096;
@@ -88,10 +88,52 @@ pub(super) fn scene_path(restored: &Restored) -> PathBuf {
     restored.spec.scene.address().into()
 }
 
+/// The same words with the contents of files in place of their names, where the values of a setting may lie in files: each of a
+/// list with commas. Only a person's own words come here; the command line of a record names no file.
+///
+/// # Errors
+/// When a file holds no value of its setting.
+fn with_files_read(words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
+    let mut before: Option<&'static PictureSetting> = None;
+    let mut is_option = true;
+    let read = |word: OsString| {
+        let text = word.to_str().unwrap_or_default();
+        let (head, setting, value) = match (before.take(), text.strip_prefix("--")) {
+            (Some(setting), _) => (String::new(), setting, text),
+            (None, Some("")) => {
+                is_option = false;
+                return Ok(word);
+            }
+            (None, Some(option)) if is_option => match option.split_once('=') {
+                Some((name, value)) if picture::find(name).is_some_and(PictureSetting::reads_files) => {
+                    let Some(setting) = picture::find(name) else {
+                        return Ok(word);
+                    };
+                    (format!("--{name}="), setting, value)
+                }
+                _ => {
+                    before = picture::find(option).filter(|setting| setting.reads_files());
+                    return Ok(word);
+                }
+            },
+            _ => return Ok(word),
+        };
+        let values: Result<Vec<String>, String> = value.split(',').map(|value| setting.read(value, None)).collect();
+        let values = values.map_err(|problem| Failure::input(format!("--{}: {problem}", setting.option)))?;
+        let is_same = values.join(",") == value;
+        Ok(if is_same {
+            word.clone()
+        } else {
+            (head + &values.join(",")).into()
+        })
+    };
+    words.into_iter().map(read).collect()
+}
+
 /// Reads the arguments, the program's name first. Where a picture that tells how it was made stands for the scene, its
 /// options come before those that were written, so that these count.
 pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Arguments, Option<Restored>), Failure> {
-    let words = arguments::with_default_command(arguments.into_iter().collect());
+    let words = with_files_read(arguments::with_default_command(arguments.into_iter().collect()))?;
     let mut arguments = arguments::parse_words(words.clone(), false)?;
     let is_view = matches!(arguments.verb, Verb::View(_));
     let Some(restored) = arguments.verb.scene().map_or(Ok(None), |scene| restored(scene))? else {

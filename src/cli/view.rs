@@ -10,11 +10,17 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     use super::picture::no_threads;
     use super::{interrupt, memory};
     use crate::app::{self, AppError, ScriptSource, ViewOptions};
-    use crate::viewer::LessonSource;
+    use crate::viewer::{LessonSource, patterns};
 
+    let is_pattern = |path: &&std::path::PathBuf| patterns::is_pattern_file(path);
+    for pattern in options.paths.iter().filter(is_pattern) {
+        patterns::of_file(pattern).map_err(Failure::Input)?;
+    }
+    let has_pattern = options.paths.iter().any(|path| is_pattern(&path));
     let lessons: Vec<LessonSource> = options
         .paths
         .iter()
+        .filter(|path| !is_pattern(path))
         .filter_map(|path| LessonSource::from_address(path))
         .collect();
     for lesson in &lessons {
@@ -23,6 +29,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     let (entries, problems) = crate::viewer::list_scenes(&options.paths);
     if entries.is_empty()
         && lessons.is_empty()
+        && !has_pattern
         && let Some(problem) = problems.into_iter().next()
     {
         return Err(Failure::Input(problem));

@@ -60,7 +60,7 @@ pub use list::hidden::Hidden;
 pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
 
 pub use resolve::{FilterRadius, ResolveFilter, SizedFilter};
-pub use sampling::pattern::{SamplePattern, Seed};
+pub use sampling::pattern::{CustomPattern, CustomPatternError, CustomSample, CustomWords, SamplePattern, Seed};
 pub use sampling::pixel_coverage::PixelCoverage;
 pub use sampling::rate::SampleRate;
 pub use sampling::shading_rate::ShadingRate;

@@ -130,8 +130,9 @@ fn values(ui: &mut Ui, viewer: &Viewer, setting: &'static PictureSetting) -> Opt
     let mut chosen = None;
     let offered = setting.offered(viewer.settings());
     for value in &offered {
-        let response = ui.selectable_label(*value == now, value);
-        let response = response.accessible_name(format!("{}: {value}", setting.label));
+        let short = setting.short(value);
+        let response = ui.selectable_label(*value == now, short);
+        let response = response.accessible_name(format!("{}: {short}", setting.label));
         if response.clicked() {
             chosen = setting.to(value).ok().map(Command::Set);
             ui.close();

@@ -112,7 +112,7 @@ fn values(setting: &'static PictureSetting, viewer: &Viewer) -> impl Iterator<It
     offered.into_iter().filter_map(move |value| {
         let change = setting.to(&value).ok()?;
         Some(Entry {
-            name: format!("{}: {value}", capitalized(setting.label)),
+            name: format!("{}: {}", capitalized(setting.label), setting.short(&value)),
             note: if value == now { "set" } else { "setting" }.to_owned(),
             does: Does::Run(Command::Set(change)),
         })

@@ -129,8 +129,11 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
         }
         Control::List | Control::ShortList => {
             let current = setting.value(now);
-            let names = setting.names();
-            let values: Vec<(&str, &str)> = names.iter().map(|name| (*name, *name)).collect();
+            let offered = setting.offered(now);
+            let values: Vec<(&str, &str)> = offered
+                .iter()
+                .map(|value| (value.as_str(), setting.short(value)))
+                .collect();
             let list = ui.scope(|ui| {
                 ui.set_max_width(width);
                 drop_down(ui, panel.name, &shown.tip(), current.as_str(), &values)

@@ -95,6 +95,10 @@ fn option(setting: &'static PictureSetting) -> Arg {
             Ok(_) => Ok(text.to_owned()),
             Err(_) => Err(format!("the value is {form}")),
         }),
+        Values::NamedOrWritten { .. } => option.value_parser(move |text: &str| match setting.to(text) {
+            Ok(_) => Ok(text.to_owned()),
+            Err(_) => Err(format!("the value is {}", setting.form())),
+        }),
     }
 }
 
@@ -123,6 +127,11 @@ impl FromArgMatches for SamplingOptions {
             if matches.value_source(setting.option) == Some(ValueSource::CommandLine) {
                 given.push(setting.option);
             }
+        }
+        if !given.contains(&"sample-rate") {
+            // A custom pattern tells how many samples it has.
+            let render = &mut settings.render;
+            render.sample_rate = render.pattern.nearest(render.sample_rate);
         }
         Ok(Self { settings, given })
     }

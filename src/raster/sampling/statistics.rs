@@ -54,7 +54,11 @@ impl PatternStatistics {
         };
         Self {
             star_discrepancy: star_discrepancy(&points),
-            least_distance: least_distance(&points),
+            least_distance: match pattern {
+                // A sample of a weight above one is repeated, which is not near to another.
+                SamplePattern::Custom(_) => least_distance(&different_points(&points)),
+                _ => least_distance(&points),
+            },
             projections: [different(0), different(1)],
             spectrum: pattern.spectrum(rate, seed),
             points,
@@ -120,6 +124,14 @@ fn star_discrepancy(points: &[Point]) -> f64 {
         worst = worst.max(right - inside / count).max(with_edge / count - right);
     }
     worst
+}
+
+/// The points without those that are there already.
+fn different_points(points: &[Point]) -> Vec<Point> {
+    let mut different = points.to_vec();
+    different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    different.dedup();
+    different
 }
 
 /// The least distance between two points, in pixels, where the same points lie in each pixel around.

@@ -85,7 +85,7 @@ pub(in crate::viewer) struct Measuring {
 
 /// What the thread does.
 pub(in crate::viewer) enum Work {
-    Measure(Job),
+    Measure(Box<Job>),
     Read(PathBuf),
 }
 
@@ -174,7 +174,7 @@ impl Measuring {
 
     pub(in crate::viewer) fn start(&mut self, job: Job) -> io::Result<()> {
         let running = Some((job.which, Arc::clone(&job.cancel)));
-        self.push(Work::Measure(job))?;
+        self.push(Work::Measure(Box::new(job)))?;
         self.running = running;
         Ok(())
     }

@@ -55,7 +55,7 @@ impl Argument {
         let text = text.trim();
         match self {
             Self::Form { usage, parse } => parse(text).ok_or_else(|| format!("\"{text}\" is not {usage}")),
-            Self::Value(setting) => setting.to(text).map(Command::Set),
+            Self::Value(setting) => setting.to(&setting.read(text, None)?).map(Command::Set),
         }
     }
 }

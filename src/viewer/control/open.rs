@@ -24,17 +24,21 @@ use crate::viewer::library;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::profile::Profiling;
-use crate::viewer::settings::Settings;
+use crate::viewer::settings::picture::SettingChange;
+use crate::viewer::settings::{Settings, patterns};
 use crate::viewer::spectrum::SpectrumState;
 use crate::viewer::view::camera::Camera;
 
-/// What opening a file of this name gives: a `scene`, a `picture` or a `lesson`; `None` where it is none of these.
+/// What opening a file of this name gives: a `scene`, a `picture`, a `lesson` or a sample `pattern`; `None` where it is none of these.
 pub fn kind_of_file(path: &Path) -> Option<&'static str> {
     if crate::scene::is_document(path) {
         return Some("scene");
     }
     if is_picture(path) {
         return Some("picture");
+    }
+    if patterns::is_pattern_file(path) {
+        return Some("pattern");
     }
     LessonSource::from_address(path).map(|_| "lesson")
 }
@@ -107,6 +111,15 @@ impl Opening<'_> {
     pub(in crate::viewer) fn open(&mut self, paths: &[PathBuf]) {
         let there: Vec<PathBuf> = paths.iter().filter(|path| path.exists()).cloned().collect();
         self.scene_list.note_opened(&there);
+        let (patterns, rest): (Vec<_>, Vec<_>) =
+            paths.iter().cloned().partition(|path| patterns::is_pattern_file(path));
+        if let Some(pattern) = patterns.last() {
+            self.take_pattern(pattern);
+            if rest.is_empty() {
+                return self.open_gallery_if_empty();
+            }
+        }
+        let paths = rest.as_slice();
         let lesson = paths.iter().find_map(|path| LessonSource::from_address(path));
         if let Some(lesson) = lesson {
             self.lessons().open(&lesson);
@@ -139,6 +152,22 @@ impl Opening<'_> {
             self.replace(scenes);
         } else if !scenes.is_empty() {
             self.add(scenes);
+        }
+    }
+
+    /// Samples by the pattern in a file, and tells it.
+    fn take_pattern(&mut self, path: &Path) {
+        let change = patterns::of_file(path).and_then(|value| SettingChange::of("pattern", &value));
+        match change {
+            Ok(change) => {
+                change.apply(self.settings);
+                let render = &self.settings.render;
+                let (name, count) = (render.pattern.name(), render.sample_rate.samples());
+                let plural = if count == 1 { "" } else { "s" };
+                let words = format!("pattern {name}: {count} sample{plural} per pixel");
+                self.chrome.messages.done(words);
+            }
+            Err(problem) => self.chrome.messages.error(problem),
         }
     }
 

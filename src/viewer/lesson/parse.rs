@@ -13,6 +13,7 @@ use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::lesson::markdown::blocks;
 use crate::viewer::lesson::model::{Lesson, LessonError, LessonStep};
 use crate::viewer::library::{SceneSource, gallery};
+use crate::viewer::settings::document::{Found, Mistake, mistake, place, short};
 use crate::viewer::settings::picture::SettingChange;
 use crate::viewer::settings::values::{named, point, toggle};
 use crate::viewer::settings::{Toggle, picture};
@@ -27,6 +28,9 @@ const LONGEST_TEXT: usize = 20_000;
 /// Longest title, in bytes.
 const LONGEST_TITLE: usize = 200;
 
+/// Longest value of a setting, in bytes: a sample pattern of 256 samples that are written out.
+const LONGEST_VALUE: usize = 4000;
+
 /// The keys of a step besides settings.
 const KEYS: [&str; 8] = [
     "title",
@@ -38,21 +42,6 @@ const KEYS: [&str; 8] = [
     "against",
     "arrange",
 ];
-
-/// What is wrong, and where in the document.
-struct Mistake {
-    at: Range<usize>,
-    problem: String,
-}
-
-type Found<T> = Result<T, Mistake>;
-
-fn mistake<T>(at: Range<usize>, problem: impl Into<String>) -> Found<T> {
-    Err(Mistake {
-        at,
-        problem: problem.into(),
-    })
-}
 
 /// The lesson in `document`, which is called `file`; scenes are found from `folder`, or in the gallery alone without one.
 pub(in crate::viewer) fn parse(document: &str, file: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
@@ -76,17 +65,6 @@ impl Lesson {
     pub fn parse(document: &str, name: &str) -> Result<Self, LessonError> {
         parse(document, name, None)
     }
-}
-
-/// Line and column of a byte.
-fn place(document: &str, byte: usize) -> [usize; 2] {
-    let mut end = byte.min(document.len());
-    while !document.is_char_boundary(end) {
-        end -= 1;
-    }
-    let before = &document[..end];
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    [before.matches('\n').count() + 1, line.chars().count() + 1]
 }
 
 type Key<'i> = Spanned<DeString<'i>>;
@@ -166,7 +144,7 @@ fn step(
             }
             "against" => against = Some(self::against(value)?),
             "arrange" => arrangement = Some((arrange(value)?, key.span())),
-            name => step.settings.push(setting(name, key, value)?),
+            name => step.settings.push(setting(name, (key, value), folder)?),
         }
     }
     step.against = match (against, arrangement) {
@@ -184,14 +162,17 @@ fn step(
     }
 }
 
-fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<SettingChange> {
+fn setting(name: &str, (key, value): (&Key<'_>, &Value<'_>), folder: Option<&Path>) -> Found<SettingChange> {
     let Some(setting) = picture::find(name) else {
         let options = picture::all().map(|setting| setting.option);
         let known: Vec<&str> = KEYS.into_iter().chain(options).collect();
         let problem = format!("`{}` is unknown; a step has {}", short(name), known.join(", "));
         return mistake(key.span(), problem);
     };
-    meant(value, setting.to(&text(value)?))
+    let text = text(value)?;
+    // Without a folder of its own a lesson reads no files.
+    let read = folder.map_or(Ok(text.clone()), |folder| setting.read(&text, Some(folder)));
+    meant(value, read.and_then(|text| setting.to(&text)))
 }
 
 /// A title.
@@ -266,7 +247,7 @@ fn words(value: &Value<'_>, most: usize) -> Found<String> {
 /// A value as it would stand on the command line.
 fn text(value: &Value<'_>) -> Found<String> {
     match value.get_ref() {
-        DeValue::String(text) if text.len() <= LONGEST_TITLE => Ok(text.to_string()),
+        DeValue::String(text) if text.len() <= LONGEST_VALUE => Ok(text.to_string()),
         DeValue::Integer(number) if number.radix() == 10 => Ok(number.as_str().to_owned()),
         DeValue::Float(number) => Ok(number.as_str().to_owned()),
         DeValue::Boolean(true) => Ok("on".to_owned()),
@@ -276,18 +257,6 @@ fn text(value: &Value<'_>) -> Found<String> {
             "not a value of an option; write it as on the command line, in quotes",
         ),
     }
-}
-
-/// What is quoted in a message, in one short line.
-fn short(text: &str) -> String {
-    const MOST: usize = 160;
-    let blank = |c: char| if c.is_ascii_whitespace() { ' ' } else { c };
-    let line: String = text.chars().map(blank).take(MOST).collect();
-    let mut line = plain::line(&line).into_owned();
-    if text.chars().count() > MOST {
-        line.push('\u{2026}');
-    }
-    line
 }
 
 #[cfg(test)]

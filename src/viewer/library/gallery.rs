@@ -102,6 +102,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/30_exact_greys.svg",
     "study/31_seams_of_a_mesh.svg",
     "study/32_checker_fan_turned.svg",
+    "study/33_nearly_level_edges.svg",
+    "study/34_leaning_edges.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

@@ -1,8 +1,10 @@
 //! A row of [the table of picture settings](super::table), and changes of a setting as data.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 use super::{Settings, values};
+use crate::raster::SamplePattern;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
 use crate::viewer::key_chords::Chord;
@@ -48,6 +50,21 @@ pub struct PictureSetting {
 pub enum Values {
     /// These, by name.
     Named(fn() -> Vec<&'static str>),
+    /// These, by name, and others that are written out or lie in a file.
+    NamedOrWritten {
+        /// Those that the key steps through.
+        names: fn() -> Vec<&'static str>,
+        /// Those that menus, lists and help have, too.
+        more: fn() -> Vec<&'static str>,
+        /// What others look like.
+        form: &'static str,
+        /// What people are shown of a value: its name.
+        short: fn(&str) -> &str,
+        /// Whether a text names a file.
+        is_file: fn(&str) -> bool,
+        /// The value in a file; one line where there is none.
+        of_file: fn(&Path) -> Result<String, String>,
+    },
     /// More than can be listed.
     Open {
         /// In words, such as `a whole number from 1 to 256`.
@@ -220,6 +237,9 @@ impl PictureSetting {
     /// The value as people read it.
     pub fn shown(&self, settings: &Settings) -> String {
         let value = self.value(settings);
+        if let Values::NamedOrWritten { short, .. } = self.values {
+            return short(&value).to_owned();
+        }
         match values::number(&value).filter(|_| self.signed) {
             Some(number) => format!("{number:+}"),
             None => value,
@@ -229,7 +249,7 @@ impl PictureSetting {
     /// The names of its values, in the order of menus; none where they cannot be listed.
     pub fn names(&self) -> Vec<&'static str> {
         match self.values {
-            Values::Named(names) => names(),
+            Values::Named(names) | Values::NamedOrWritten { names, .. } => names(),
             Values::Open { .. } => Vec::new(),
         }
     }
@@ -238,6 +258,14 @@ impl PictureSetting {
     pub fn offered(&self, settings: &Settings) -> Vec<String> {
         match self.values {
             Values::Named(names) => names().into_iter().map(str::to_owned).collect(),
+            Values::NamedOrWritten { names, more, .. } => {
+                let mut all: Vec<String> = names().into_iter().chain(more()).map(str::to_owned).collect();
+                let current = self.value(settings);
+                if !all.contains(&current) {
+                    all.push(current);
+                }
+                all
+            }
             Values::Open { offered, .. } => offered(settings),
         }
     }
@@ -246,6 +274,9 @@ impl PictureSetting {
     pub fn form(&self) -> String {
         match self.values {
             Values::Named(names) => names().join("|"),
+            Values::NamedOrWritten { names, more, form, .. } => {
+                format!("{}|{}, {form}", names().join("|"), more().join("|"))
+            }
             Values::Open { form, .. } => form.to_owned(),
         }
     }
@@ -253,7 +284,7 @@ impl PictureSetting {
     /// The values of an axis to begin with.
     pub fn some_values(&self) -> Vec<&'static str> {
         match self.values {
-            Values::Named(names) => names(),
+            Values::Named(names) | Values::NamedOrWritten { names, .. } => names(),
             Values::Open { some, .. } => some.to_vec(),
         }
     }
@@ -282,6 +313,35 @@ impl PictureSetting {
         })
     }
 
+    /// The value that a text means which may name a file, from `folder` where the name is not absolute.
+    ///
+    /// Only what the user typed or opened comes here: a record or a pin of a stranger names no file.
+    ///
+    /// # Errors
+    /// One line where the file holds no value.
+    pub fn read(&self, text: &str, folder: Option<&Path>) -> Result<String, String> {
+        match self.values {
+            Values::NamedOrWritten { is_file, of_file, .. } if is_file(text) => {
+                let path: PathBuf = values::path(text.trim());
+                of_file(&folder.map_or(path.clone(), |folder| folder.join(path)))
+            }
+            _ => Ok(text.to_owned()),
+        }
+    }
+
+    /// Whether a value may lie in a file.
+    pub fn reads_files(&self) -> bool {
+        matches!(self.values, Values::NamedOrWritten { .. })
+    }
+
+    /// What people are shown of a value.
+    pub fn short<'v>(&self, value: &'v str) -> &'v str {
+        match self.values {
+            Values::NamedOrWritten { short, .. } => short(value),
+            _ => value,
+        }
+    }
+
     /// The change that steps to the next value, or to the one before where `by` is below zero.
     pub const fn step(&'static self, by: f64) -> SettingChange {
         SettingChange {
@@ -307,7 +367,9 @@ impl SettingChange {
             To::Step(by) => (self.setting.step)(settings, *by),
         }
         let render = &mut settings.render;
-        let refusal = render.pattern.refusal(render.sample_rate);
+        // Who chooses a pattern that has one rate alone chooses that, too.
+        let chooses_rate = self.setting.reads_files() && matches!(render.pattern, SamplePattern::Custom(_));
+        let refusal = render.pattern.refusal(render.sample_rate).filter(|_| !chooses_rate);
         render.sample_rate = render.pattern.nearest(render.sample_rate);
         refusal
     }

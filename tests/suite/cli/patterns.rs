@@ -1,7 +1,19 @@
-//! `rasterscope pattern`.
+//! `rasterscope pattern`, and patterns from files.
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::time::{Duration, Instant};
+
+use rasterscope::figure::{Record, encode_png};
+use rasterscope::raster::Framebuffer;
+
+use crate::support::program::{done, run};
+use crate::support::refusal::assert_refused;
+
+const SCENE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30">
+  <polygon points="2,3 37,9 11,28" fill="#123456"/>
+</svg>"##;
 
 /// What the program prints.
 fn printed(arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -68,4 +80,98 @@ fn cli_pattern_refuses_what_a_pattern_does_not_take() {
     let (status, out, error) = printed(&["grid", "--sample-rate", "5"]);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{error}");
     assert!(error.lines().count() == 1 && error.contains("4 is nearest"), "{error}");
+}
+
+/// What `render` says to a pattern's file with this text.
+fn refused(document: &[u8], words: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.svg"), SCENE).unwrap();
+    fs::write(folder.path().join("p.toml"), document).unwrap();
+    let arguments = ["render", "a.svg", "-o", "a.png", "--size", "8x8", "--pattern", "p.toml"];
+    let begin = Instant::now();
+    let output = run(folder.path(), &arguments);
+    let took = begin.elapsed();
+    assert!(took < Duration::from_secs(5), "{words:?}: {took:?}");
+    assert_refused(&output, &arguments, words);
+    assert!(!folder.path().join("a.png").exists(), "{words:?}: nothing is written");
+}
+
+#[test]
+fn cli_pattern_files_at_fault_are_told_with_place_and_cure() {
+    let of = |samples: &str| format!("name = \"own\"\nsamples = [\n  {samples}\n]\n");
+    let one = "{ x = 0.5, y = 0.5 },";
+    // All samples in one line.
+    let minified = format!("name=\"own\"\nsamples=[{}{{x=0.5,y=7}}]", "{x=0.5,y=0.5},".repeat(200));
+    let weight = "p.toml:3:32: a weight is a whole number from 1 to 256; write one";
+    let place = ":3:9: not a place in the pixel; give a number from 0 to below 1";
+    let weighted = |weight: &str| of(&format!("{{ x = 0.5, y = 0.5, weight = {weight} }}"));
+    let placed = |x: &str| of(&format!("{{ x = {x}, y = 0.5 }}"));
+    for (document, told) in [
+        (
+            "# \n".repeat(30_000) + &of(one),
+            "p.toml: is larger than 64 KiB; give a sample pattern in TOML",
+        ),
+        (of(""), "p.toml:2:11: 0 samples; a pattern has 1 to 256"),
+        (of(&one.repeat(257)), "p.toml:2:11: 257 samples; a pattern has 1 to 256"),
+        (weighted("0"), weight),
+        (weighted("-1"), weight),
+        (weighted("1e9"), weight),
+        (weighted("1000000000"), weight),
+        (placed("1.0"), place),
+        (placed("nan"), place),
+        ("<svg/>".to_owned(), "p.toml:1:7: not TOML: "),
+        (format!("samples = {}", "[".repeat(30_000)), "p.toml:1:"),
+        (minified, "p.toml:2:2819: not a place in the pixel"),
+    ] {
+        refused(document.as_bytes(), &["--pattern: p.toml", told]);
+    }
+    refused(
+        b"name = \"\xff\xfe\"",
+        &["--pattern: p.toml: is no text in UTF-8; save it in that encoding"],
+    );
+}
+
+#[test]
+fn cli_pattern_file_is_in_the_record_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("own.toml");
+    fs::write(folder.path().join("a.svg"), SCENE).unwrap();
+    fs::write(
+        &file,
+        "name = \"own\"\ngrid = 4\nsamples = [{ x = 1, y = 3 }, { x = 2, y = 2, weight = 2 }]",
+    )
+    .unwrap();
+    let render = |pattern: &str, to: &str| {
+        let arguments = ["render", "a.svg", "-o", to, "--size", "40x30", "--pattern", pattern];
+        done(folder.path(), &arguments);
+        image::open(folder.path().join(to)).unwrap().into_rgba8()
+    };
+    let drawn = render("own.toml", "a.png");
+    assert!(drawn != render("grid", "grid.png"), "it makes a difference");
+    fs::remove_file(&file).unwrap();
+    let record = Record::of_file(&folder.path().join("a.png")).unwrap().unwrap();
+    let own = "own:64/192+128/128x2";
+    let told = record.settings.get("pattern").map(String::as_str);
+    assert_eq!(told, Some(own), "the samples");
+    assert!(
+        !record.command_line.contains("toml"),
+        "no file: {}",
+        record.command_line
+    );
+    let said = done(folder.path(), &["rerun", "a.png", "--check"]);
+    assert_eq!(said.trim(), "a.png: the same, all 1200 pixels", "without the file");
+    assert!(drawn == render(own, "b.png"), "written out as the record has it");
+    // A record of a stranger names no file that is read.
+    let stranger = Record {
+        arguments: record
+            .arguments
+            .iter()
+            .map(|word| word.replace(own, "own.toml"))
+            .collect(),
+        ..record
+    };
+    let bytes = encode_png(&Framebuffer::new(2, 2), Some(&stranger)).unwrap();
+    fs::write(folder.path().join("c.png"), bytes).unwrap();
+    let arguments = ["rerun", "c.png", "--check"];
+    assert_refused(&run(folder.path(), &arguments), &arguments, &["own.toml", "--pattern"]);
 }

@@ -9,8 +9,9 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, ReadOptions, Scene, read};
-use rasterscope::viewer::gallery;
+use rasterscope::viewer::{gallery, patterns};
 
+use crate::support::brute_force;
 use crate::support::scenes::{drawn, one_to_one, scene};
 
 /// Points of the lattice that samples are snapped to, along one side of a pixel.
@@ -330,8 +331,8 @@ fn pictures_of_every_pattern_are_those_of_one_thread() {
 
 const STUDY: [u32; 2] = [1024, 1024];
 
-/// A scene of the gallery, drawn at 1024 x 1024 in the default view.
-fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
+/// A scene of the gallery.
+fn gallery_scene(name: &str) -> Scene {
     let scene = gallery::SCENES
         .iter()
         .find(|scene| scene.name == name)
@@ -339,7 +340,12 @@ fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
     let options = ReadOptions {
         dialect: DialectChoice::Auto,
     };
-    let scene = read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene");
+    read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene")
+}
+
+/// A scene of the gallery, drawn at 1024 x 1024 in the default view.
+fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
+    let scene = gallery_scene(name);
     let view = View::Default.transform(scene.canvas, STUDY);
     drawn(&scene, &view, &settings(pattern, samples), STUDY)
 }
@@ -426,6 +432,96 @@ fn study_of_upright_bars_is_where_jitter_loses() {
                 columns > 40,
                 "{frayed:?}: both edges of 24 bars are ragged: {columns} columns at {samples}"
             );
+        }
+    }
+}
+
+/// A custom pattern with the samples of a pixel that are written out so.
+fn custom(text: &str) -> SamplePattern {
+    patterns::named(text).expect("a pattern")
+}
+
+#[test]
+fn custom_patterns_sample_as_brute_force_does() {
+    let triangle = |points: [[f64; 2]; 3], paint| PrimitiveKind::Triangle {
+        points: points.map(DVec2::from),
+        paint: Paint::Solid(paint),
+    };
+    let scene = scene(
+        16.0,
+        vec![
+            triangle([[1.0, 2.0], [14.0, 3.1], [6.0, 13.0]], Rgba::opaque(1.0, 0.0, 0.0)),
+            triangle([[2.0, 12.0], [13.0, 6.0], [15.3, 15.0]], Rgba::opaque(0.0, 0.0, 1.0)),
+        ],
+    );
+    let view = one_to_one([16, 16]);
+    for text in [
+        "msaa-2",
+        "msaa-8",
+        "middle:128/128",
+        "cross:128/128x2+64/128+192/128",
+        "corners:0/0+255/255+255/0x3+0/255",
+    ] {
+        let SamplePattern::Custom(pattern) = custom(text) else {
+            panic!("{text} is custom");
+        };
+        let settings = settings(custom(text), pattern.rate().samples());
+        let (fast, slow) = (
+            drawn(&scene, &view, &settings, [16, 16]),
+            brute_force::draw(&scene, &view, &settings, [16, 16]),
+        );
+        assert_eq!(fast.pixels(), slow.pixels(), "{text}");
+    }
+}
+
+#[test]
+fn custom_weights_count_samples_as_often() {
+    // Left of the middle of the first column of pixels.
+    let points = [[-8.0, -40.0], [0.5, -40.0], [0.5, 4000.0]].map(DVec2::from);
+    let paint = Paint::Solid(Rgba::opaque(0.0, 0.0, 0.0));
+    let scene = scene(4.0, vec![PrimitiveKind::Triangle { points, paint }]);
+    let view = one_to_one([4, 4]);
+    let red = |text: &str, samples: u32| {
+        let picture = drawn(&scene, &view, &settings(custom(text), samples), [4, 4]);
+        picture.rgba(0, 1).expect("inside")[0]
+    };
+    assert_eq!(red("plain:64/128+192/128", 2), 128, "half of the pixel");
+    assert_eq!(red("heavy:64/128x3+192/128", 4), 64, "three of four samples are black");
+    let same = "own:96/32+224/96+32/160+160/224";
+    let points = |text: &str| positions(custom(text), 4, [0, 0]);
+    assert_eq!(points("msaa-4"), points(same), "the same samples by another name");
+}
+
+#[test]
+fn studies_of_edges_are_where_msaa_8_wins_and_where_it_loses() {
+    const SMALL: [u32; 2] = [512, 384];
+    let frame = |name: &str, pattern, samples| {
+        let scene = gallery_scene(name);
+        let view = View::Default.transform(scene.canvas, SMALL);
+        drawn(&scene, &view, &settings(pattern, samples), SMALL)
+    };
+    // Root of the mean square of what reds differ by.
+    let error = |name: &str, pattern, samples| {
+        let (found, truth) = (frame(name, pattern, samples), frame(name, SamplePattern::Grid, 256));
+        let places = (0..SMALL[1]).flat_map(|y| (0..SMALL[0]).map(move |x| (x, y)));
+        let sum: f64 = places
+            .map(|(x, y)| (red(&found, x, y) - red(&truth, x, y)).powi(2))
+            .sum();
+        (sum / f64::from(SMALL[0] * SMALL[1])).sqrt()
+    };
+    for (name, wins) in [
+        ("study/33_nearly_level_edges.svg", true),
+        ("study/34_leaning_edges.svg", false),
+    ] {
+        let eight = error(name, custom("msaa-8"), 8);
+        let [four, nine] = [4, 9].map(|samples| error(name, SamplePattern::Grid, samples));
+        if wins {
+            assert!(
+                2.0 * eight < nine && 3.0 * eight < four,
+                "{name}: {eight}, grid {four} and {nine}"
+            );
+        } else {
+            assert!(eight > 1.3 * nine, "{name}: {eight}, grid {nine}");
         }
     }
 }

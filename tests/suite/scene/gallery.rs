@@ -24,7 +24,7 @@ fn root() -> &'static Path {
 }
 
 /// Study scenes that the generator does not make.
-const BY_HAND: [&str; 9] = [
+const BY_HAND: [&str; 11] = [
     "study/18_text_at_8_px.svg",
     "study/19_banding.svg",
     "study/20_conflation.svg",
@@ -34,6 +34,8 @@ const BY_HAND: [&str; 9] = [
     "study/29_what_guesses_miss.svg",
     "study/30_exact_greys.svg",
     "study/31_seams_of_a_mesh.svg",
+    "study/33_nearly_level_edges.svg",
+    "study/34_leaning_edges.svg",
 ];
 
 /// The files below a folder, relative to it, with `/`.

@@ -17,6 +17,8 @@
 pub(in crate::raster::sampling) mod arrange;
 mod blue_noise;
 mod cells;
+mod custom;
+mod entry;
 mod grid;
 mod halton;
 mod jittered;
@@ -28,32 +30,9 @@ mod rotated;
 mod sobol;
 
 use crate::raster::sampling::pattern::arrange::Arrange;
+pub use crate::raster::sampling::pattern::custom::{CustomPattern, CustomPatternError, CustomSample, CustomWords};
+use crate::raster::sampling::pattern::entry::{Entry, Spread};
 use crate::raster::sampling::rate::SampleRate;
-
-/// What there is to say of a pattern.
-struct Entry {
-    /// The name used in the command line and the interface.
-    name: &'static str,
-    /// Where the samples of a pixel lie, in few words.
-    description: &'static str,
-    /// Whom it goes back to; empty where it is everybody's.
-    source: &'static str,
-    /// Whether it divides a pixel into cells, so that only square numbers of samples are possible.
-    needs_square: bool,
-    spread: Spread,
-    arrange: &'static dyn Arrange,
-}
-
-/// How the samples of one pixel go with those of another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Spread {
-    /// They need no random bits: every pixel has the same.
-    Fixed,
-    /// Every pixel has the same, by the random bits of a seed.
-    Alike,
-    /// Each has its own: a scene that moves by whole pixels changes its picture.
-    Own,
-}
 
 /// Makes the enum of all patterns, with what there is to say of each.
 macro_rules! patterns {
@@ -65,10 +44,12 @@ macro_rules! patterns {
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
         pub enum SamplePattern {
             $($(#[$doc])* $kind,)+
+            /// Places and weights that somebody wrote down.
+            Custom(&'static CustomPattern),
         }
 
         impl SamplePattern {
-            /// Every value, in the order of menus and of the key that steps through them.
+            /// Every value but the custom ones, in the order of menus and of the key that steps through them.
             pub const ALL: [Self; [$(stringify!($kind)),+].len()] = [$(Self::$kind),+];
 
             const fn entry(self) -> &'static Entry {
@@ -77,6 +58,7 @@ macro_rules! patterns {
                         static ENTRY: Entry = $entry;
                         &ENTRY
                     })+
+                    Self::Custom(pattern) => &pattern.entry,
                 }
             }
         }
@@ -261,13 +243,20 @@ impl SamplePattern {
 
     /// Whether it has that many samples.
     pub fn takes(self, rate: SampleRate) -> bool {
-        !self.needs_square() || rate.is_square()
+        match self {
+            Self::Custom(pattern) => pattern.rate() == rate,
+            _ => !self.needs_square() || rate.is_square(),
+        }
     }
 
     /// The possible rate that is nearest to `rate`; the lower one of two.
     #[must_use]
     pub fn nearest(self, rate: SampleRate) -> SampleRate {
-        if self.takes(rate) { rate } else { rate.nearest_square() }
+        match self {
+            Self::Custom(pattern) => pattern.rate(),
+            _ if self.takes(rate) => rate,
+            _ => rate.nearest_square(),
+        }
     }
 
     /// Why `rate` is not possible, and what is nearest; `None` where it is possible.
@@ -281,13 +270,17 @@ impl SamplePattern {
             let [others @ .., last] = free.as_slice() else {
                 return String::new();
             };
-            format!(
-                "pattern {} takes a square number of samples, not {}; {} is nearest, and {} and {last} take any",
-                self.name(),
-                rate.samples(),
-                self.nearest(rate).samples(),
-                others.join(", ")
-            )
+            let (name, others, nearest) = (self.name(), others.join(", "), self.nearest(rate).samples());
+            let asked = rate.samples();
+            match self {
+                Self::Custom(_) => {
+                    let plural = if nearest == 1 { "" } else { "s" };
+                    format!("pattern {name} takes {nearest} sample{plural}, not {asked}; {others} and {last} take any number")
+                }
+                _ => format!(
+                    "pattern {name} takes a square number of samples, not {asked}; {nearest} is nearest, and {others} and {last} take any"
+                ),
+            }
         })
     }
 
@@ -296,6 +289,7 @@ impl SamplePattern {
     pub(crate) fn simplest(self, rate: SampleRate) -> Self {
         match self {
             Self::Rotated | Self::R2 | Self::Hammersley if rate == SampleRate::ONE => Self::Grid,
+            Self::Custom(custom) if custom.is_centre() => Self::Grid,
             pattern => pattern,
         }
     }

@@ -4,7 +4,7 @@ use super::idle;
 use crate::raster::{PixelCoverage, SamplePattern, SampleRate, Seed, ShadingRate};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
-use crate::viewer::settings::{Settings, values};
+use crate::viewer::settings::{Settings, patterns, values};
 
 /// The rows.
 pub(super) const ROWS: &[PictureSetting] = &[
@@ -61,7 +61,15 @@ pub(super) const ROWS: &[PictureSetting] = &[
         },
     },
     PictureSetting {
-        help: "Where the samples of a pixel lie",
+        help: "Where the samples of a pixel lie: a pattern by name, or a TOML file of places and weights",
+        values: Values::NamedOrWritten {
+            names: || SamplePattern::ALL.map(SamplePattern::name).to_vec(),
+            more: patterns::shipped_names,
+            form: patterns::FORM,
+            short: patterns::name_in,
+            is_file: patterns::is_file_name,
+            of_file: patterns::of_file,
+        },
         about: About::Samples,
         told: Told::IfChanged,
         panel: Some(PanelRow::new("Pattern", "Sample pattern", Control::List)),
@@ -77,6 +85,27 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         idle: idle::samples,
+        get: |settings| patterns::value_of(settings.render.pattern),
+        set: |settings, text| {
+            settings.render.pattern = patterns::named(text)?;
+            Some(())
+        },
+        step: |settings, by| {
+            // After those that take any rate come the custom ones that take this one.
+            let rate = settings.render.sample_rate;
+            let fitting = patterns::shipped()
+                .iter()
+                .copied()
+                .filter(|pattern| pattern.takes(rate));
+            let all: Vec<SamplePattern> = SamplePattern::ALL.into_iter().chain(fitting).collect();
+            let now = settings.render.pattern;
+            settings.render.pattern = match all.contains(&now) {
+                true => values::next_of(&all, now, by),
+                // A user's own pattern stands before the first one.
+                false if by < 0.0 => all[all.len() - 1],
+                false => SamplePattern::Grid,
+            };
+        },
         ..named!("pattern", "pattern", SamplePattern, render.pattern)
     },
     PictureSetting {

@@ -214,7 +214,7 @@ fn sheet_at_fault_writes_nothing() {
     refused(&["-o", "s.png", "--sample-rate", "1,5"], &["--sample-rate 5"]);
     refused(
         &["-o", "s.png", "--pattern", "grid,poisson"],
-        &["poisson", "possible values"],
+        &["poisson", "grid|rotated", "TOML file"],
     );
     refused(&["-o", "s.png", "--sharpness", "1,2"], &["--sharpness"]);
     refused(

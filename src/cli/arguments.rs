@@ -303,7 +303,6 @@ mod tests {
             "rasterscope bench",
             "rasterscope bench a.svg --frames 0",
             "rasterscope bench a.svg --threads 0",
-            "rasterscope pattern poisson",
             "rasterscope pattern --sample-rate 0",
             "rasterscope pattern --sample-rate 257",
             "rasterscope pattern --seed 65536",

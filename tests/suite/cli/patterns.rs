@@ -77,6 +77,9 @@ fn cli_pattern_prints_the_points_that_pixels_have() {
 
 #[test]
 fn cli_pattern_refuses_what_a_pattern_does_not_take() {
+    let arguments = ["pattern", "poisson"];
+    let words = ["poisson: no pattern", "grid|rotated", "TOML file"];
+    assert_refused(&run(Path::new("."), &arguments), &arguments, &words);
     let (status, out, error) = printed(&["grid", "--sample-rate", "5"]);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{error}");
     assert!(error.lines().count() == 1 && error.contains("4 is nearest"), "{error}");

@@ -62,9 +62,9 @@ fn rest_and_clicks_with_notes() {
 
 #[test]
 fn rest_the_bar_takes_no_clicks_from_what_is_beside_it() {
-    /// The choice `linear` of the row `Resolve`: the last pixels of its button, from the window's right edge.
+    /// The choice `linear` of the row `Resolve`, which one sample would not need: the last pixels of its button, from the window's right edge.
     const LINEAR: [u32; 2] = [14, 387];
-    let program = Program::open(&[&flat()], &["--theme", "dark", "--do", "panel on"]);
+    let program = Program::open(&[&flat()], &["--theme", "dark", "--do", "rate 4; panel on"]);
     let size = [1280, 800];
     program.resize(size);
     rests(&program, "before");

@@ -16,7 +16,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, i32x8, u32x8};
 
-use super::sample_places::{LANES, Places};
+use super::sample_places::{LANES, Places, whole, whole_sum};
 use super::summed_area::SummedAreaTable;
 use super::{TexelBox, Wrap};
 use crate::color::Premultiplied16;
@@ -208,24 +208,4 @@ fn lowest(at: f64) -> u32 {
 #[expect(clippy::cast_possible_truncation, reason = "parts of a texel, and of a box")]
 fn narrow(part: f64) -> f32 {
     part as f32
-}
-
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of at most 65280"
-)]
-fn whole(channel: f32) -> u16 {
-    channel as u16
-}
-
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of at most sixteen times 65280"
-)]
-fn whole_sum(channel: f32) -> u32 {
-    channel as u32
 }

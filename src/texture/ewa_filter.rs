@@ -15,7 +15,7 @@ use glam::DVec2;
 
 use super::ellipse::{Ellipse, Quadratic, SERIES, weight};
 use super::fixed_point::REACH;
-use super::sample_places::{LANES, Places};
+use super::sample_places::{LANES, Places, whole, whole_sum};
 use super::{MipLevel, Wrap};
 use crate::color::Premultiplied16;
 
@@ -295,26 +295,6 @@ fn greatest(mut lanes: Lanes) -> f32 {
         }
     }
     lanes[0]
-}
-
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of at most 65280"
-)]
-fn whole(channel: f32) -> u16 {
-    channel as u16
-}
-
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of at most sixteen times 65280"
-)]
-fn whole_sum(channel: f32) -> u32 {
-    channel as u32
 }
 
 #[inline(always)]

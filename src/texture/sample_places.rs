@@ -123,3 +123,25 @@ impl PixelPlaces {
         }
     }
 }
+
+/// A channel that was rounded already: a whole number of at most 65280.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number of at most 65280"
+)]
+pub(super) fn whole(channel: f32) -> u16 {
+    channel as u16
+}
+
+/// The sum of such channels over up to [`LANES`] samples.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number of at most sixteen times 65280"
+)]
+pub(super) fn whole_sum(channel: f32) -> u32 {
+    channel as u32
+}

@@ -54,7 +54,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "An ellipse blurs least and costs up to ten times as much; a box from sums and a ripmap blur what lies across the axes, and cost up to four times",
+            more: "An ellipse blurs least and costs some thirty times level zero; a box from sums, some ten times, and a ripmap, some five, blur what lies across the axes",
             keys: &[Chord::char('l')],
             ..SettingCommand::new(
                 "level-sampling",

@@ -4,7 +4,8 @@ use std::fmt;
 use std::mem::discriminant;
 
 use crate::color::{ResolveSpace, linear_to_srgb, srgb_to_linear, unit_to_byte};
-use crate::raster::{Framebuffer, SamplePattern, SampleRate, ShadingRate};
+use crate::post::PostProcess;
+use crate::raster::{Framebuffer, PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::Subject;
 use crate::rules::Rules;
 use crate::texture::{LevelSampling, PixelSampling};
@@ -41,6 +42,10 @@ pub enum Cause {
     Resolve(ResolveSpace),
     /// So often a primitive is shaded in a pixel.
     Shading(ShadingRate),
+    /// What tells how much of a pixel a primitive covers.
+    Coverage(PixelCoverage),
+    /// What is done to finished pixels.
+    PostProcess(PostProcess),
 }
 
 /// The corner of a sample's cell.
@@ -103,6 +108,12 @@ impl fmt::Display for Cause {
             Self::Shading(ShadingRate::Centroid) => f.write_str(
                 "multisampling: one colour for all samples of a pixel, that of the centroid of the covered ones",
             ),
+            Self::Coverage(PixelCoverage::Exact) => {
+                f.write_str("exact coverage: the area of each shape, as vector renderers do")
+            }
+            Self::Coverage(PixelCoverage::Sampled) => f.write_str("coverage by samples instead of exact areas"),
+            Self::PostProcess(PostProcess::Smaa) => f.write_str("SMAA: finished pixels smoothed along their edges"),
+            Self::PostProcess(PostProcess::None) => f.write_str("finished pixels left as they are, without SMAA"),
         }
     }
 }
@@ -121,6 +132,8 @@ pub(super) fn drawn_otherwise(subject: &Subject<'_>) -> Vec<Cause> {
     // A centroid is what few ask of their hardware, and what explains other renderers' rounding by chance.
     let rates = [ShadingRate::Sample, ShadingRate::Centre];
     causes.extend(others(&rates, settings.shading).map(Cause::Shading));
+    causes.extend(others(&PixelCoverage::ALL, settings.coverage).map(Cause::Coverage));
+    causes.extend(others(&PostProcess::ALL, settings.post_process).map(Cause::PostProcess));
     if !subject.scene.textures.is_empty() {
         causes.push(Cause::FlippedV);
         causes.extend(others(&PixelSampling::ALL, settings.pixel_sampling).map(Cause::PixelSampling));

@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use super::cause::{Cause, drawn_otherwise, finished_otherwise};
 use super::trial::Trial;
 use super::truncation::truncated_errors;
-use crate::raster::Framebuffer;
+use crate::post::PostProcess;
+use crate::raster::{Framebuffer, SampleRate};
 use crate::render::{CancelToken, Subject};
 use crate::rules::Rules;
 
@@ -192,11 +193,19 @@ impl<'a> Search<'a> {
         found.any(|found| found.error as f64 <= NEGLIGIBLE * before)
     }
 
-    /// In which values a single sample is averaged, and how often a pixel of one is shaded, makes no difference.
+    /// Whether each cause makes a difference beside the others, and SMAA has the one sample per pixel that it is made for.
     fn makes_sense(&self, causes: &[Cause]) -> bool {
-        let samples = self.trial.settings(causes).sample_rate.samples();
-        let of_several = |cause: &Cause| matches!(cause, Cause::Resolve(_) | Cause::Shading(_));
-        samples > 1 || !causes.iter().any(of_several)
+        let settings = self.trial.settings(causes);
+        let is_single = settings.sample_rate == SampleRate::ONE;
+        let is_exact = settings.coverage.is_exact();
+        let is_mixed = !is_single || is_exact || settings.post_process != PostProcess::None;
+        causes.iter().all(|cause| match cause {
+            Cause::Resolve(_) => is_mixed,
+            Cause::Shading(_) => !is_single && !is_exact,
+            Cause::SampleRate(_) | Cause::Corners(_) => !is_exact,
+            Cause::PostProcess(process) => *process == PostProcess::None || is_single,
+            _ => true,
+        })
     }
 
     /// Whether another drawing will be done in time: as many times more samples take as many times longer at most.

@@ -46,6 +46,8 @@ impl<'a> Trial<'a> {
                 Cause::SampleRate(rate) => settings.sample_rate = rate,
                 Cause::Resolve(space) => settings.resolve = space,
                 Cause::Shading(shading) => settings.shading = shading,
+                Cause::Coverage(coverage) => settings.coverage = coverage,
+                Cause::PostProcess(process) => settings.post_process = process,
                 Cause::PixelSampling(sampling) => settings.pixel_sampling = sampling,
                 Cause::LevelSampling(sampling) => settings.level_sampling = sampling,
                 _ => {}

@@ -19,6 +19,8 @@ const LEAST: f64 = 1.0;
 const ENOUGH: f64 = 0.75;
 /// What brings less than this part of what another setting does is not worth a word.
 const WORTH_A_WORD: f64 = 0.25;
+/// Texels of a texture above which no sums and ripmaps are made of it for the sake of advice: they would take as long as frames.
+const MOST_TABLED: u64 = 1 << 20;
 /// Settings that are told at most.
 const MOST_CURES: usize = 3;
 
@@ -55,8 +57,9 @@ impl Explanation {
         };
         // Nothing can bring it nearer by more than it is away.
         if distance > LEAST {
-            let reads_textures = self.paints.iter().any(|paint| paint.texture.is_some());
-            truth.cures = candidates(settings, reads_textures)
+            let textures = self.paints.iter().filter_map(|paint| paint.texture.as_ref());
+            let texels = textures.map(|texture| u64::from(texture.size[0]) * u64::from(texture.size[1]));
+            truth.cures = candidates(settings, texels.max())
                 .into_iter()
                 .filter_map(|(setting, values)| truth.cure(setting, values, draw))
                 .collect();
@@ -115,7 +118,8 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
 }
 
 /// Every setting that may bring a pixel nearer to the truth, with the values that are worth trying, the cheapest first.
-fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+/// `texels` is how many the largest texture has that the pixel reads, if it reads any.
+fn candidates(own: &RenderSettings, texels: Option<u64>) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
     let mut all = vec![
         (Setting::Rules, rules(own)),
         (Setting::SampleRate, rates(own)),
@@ -124,8 +128,8 @@ fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(
         (Setting::PostProcess, post_processes(own)),
         (Setting::Coverage, coverages(own)),
     ];
-    if reads_textures {
-        all.extend(of_textures(own));
+    if let Some(texels) = texels {
+        all.extend(of_textures(own, texels));
     }
     all
 }
@@ -216,18 +220,34 @@ fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
         .collect()
 }
 
-fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+/// Levels, and areas of textures.
+fn level_samplings(own: &RenderSettings, texels: u64) -> Vec<(String, RenderSettings)> {
+    let has_tables = texels <= MOST_TABLED;
+    let is_of_table = |level: &LevelSampling| matches!(level, LevelSampling::Ripmap | LevelSampling::SummedArea);
+    // The cheapest first.
+    let levels = [
+        LevelSampling::Linear,
+        LevelSampling::Nearest,
+        LevelSampling::Ripmap,
+        LevelSampling::SummedArea,
+        LevelSampling::Ewa,
+    ];
+    levels
+        .into_iter()
+        .filter(|level| *level != own.level_sampling && (has_tables || !is_of_table(level)))
+        .map(|level_sampling| {
+            let settings = RenderSettings { level_sampling, ..*own };
+            (level_sampling.name().to_owned(), settings)
+        })
+        .collect()
+}
+
+/// `texels` is how many the largest texture has.
+fn of_textures(own: &RenderSettings, texels: u64) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
     let detail = |value: &str, changes: bool, detail: LevelOfDetail| {
         let settings = RenderSettings { detail, ..*own };
         changes.then(|| (value.to_owned(), settings)).into_iter().collect()
     };
-    let levels = [LevelSampling::Linear, LevelSampling::Nearest]
-        .into_iter()
-        .filter(|level| *level != own.level_sampling)
-        .map(|level_sampling| {
-            let settings = RenderSettings { level_sampling, ..*own };
-            (level_sampling.name().to_owned(), settings)
-        });
     let taps = Anisotropy::STEPS
         .into_iter()
         .filter(|anisotropy| *anisotropy > own.anisotropy)
@@ -277,7 +297,7 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         (Setting::Pyramid, pyramid.into_iter().collect()),
         (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
         (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
-        (Setting::LevelSampling, levels.collect()),
+        (Setting::LevelSampling, level_samplings(own, texels)),
         (Setting::Anisotropy, taps.collect()),
         (Setting::LodBy, detail("longer", own.detail != longer, longer)),
         // Where one colour is computed for all samples, none of them reads a texture itself.
@@ -310,8 +330,8 @@ mod tests {
     #[test]
     fn candidates_are_other_settings() {
         let own = RenderSettings::default();
-        for reads_textures in [false, true] {
-            for (setting, values) in candidates(&own, reads_textures) {
+        for texels in [None, Some(1), Some(u64::MAX)] {
+            for (setting, values) in candidates(&own, texels) {
                 for (value, settings) in values {
                     assert!(settings != own, "{setting:?} {value}");
                 }

@@ -9,7 +9,7 @@ use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Text
 use super::numbers::{number, percent, significant};
 use crate::color::ResolveSpace;
 use crate::raster::{PixelCoverage, ShadingRate};
-use crate::texture::PyramidFilter;
+use crate::texture::{LevelSampling, PyramidFilter};
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;
@@ -53,7 +53,10 @@ impl Explanation {
                 .or_else(|| self.thin_topmost())
                 .or_else(|| self.wrong_coverage())
                 .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture))),
-            Setting::LevelSampling => texture.and_then(|(paint, texture)| self.few_of_many(paint, texture)),
+            Setting::LevelSampling => texture.and_then(|(paint, texture)| {
+                let blurred = || cure.weighs_area().then(|| texture.blurred_across()).flatten();
+                self.few_of_many(paint, texture).or_else(blurred)
+            }),
             Setting::Anisotropy => texture.and_then(|(_, texture)| texture.blurred_across()),
             Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels()),
             Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
@@ -268,6 +271,12 @@ impl Paint {
 }
 
 impl Cure {
+    /// Whether it makes samples weigh areas of textures.
+    fn weighs_area(&self) -> bool {
+        let mut areas = LevelSampling::ALL.into_iter().filter(|level| level.weighs_area());
+        self.setting == Setting::LevelSampling && areas.any(|level| level.name() == self.value)
+    }
+
     /// What to set, the key that steps through the values, and what it brings.
     fn words(&self) -> String {
         let value = &self.value;

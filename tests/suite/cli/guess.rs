@@ -6,7 +6,8 @@ use std::time::Duration;
 use rasterscope::color::ResolveSpace;
 use rasterscope::compare::{Cause, CellCorner, Guess, guess};
 use rasterscope::geometry::{View, ViewTransform};
-use rasterscope::raster::{Framebuffer, SampleRate, ShadingRate};
+use rasterscope::post::PostProcess;
+use rasterscope::raster::{Framebuffer, PixelCoverage, SampleRate, ShadingRate};
 use rasterscope::render::{CancelToken, RenderSettings, Subject};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{DialectChoice, Scene, load};
@@ -72,6 +73,8 @@ impl Study {
                 Cause::FlippedV => renderer.flips_v = true,
                 Cause::Resolve(space) => renderer.resolve = space,
                 Cause::Shading(shading) => renderer.shading = shading,
+                Cause::Coverage(coverage) => (renderer.coverage, renderer.side) = (coverage, 1),
+                Cause::PostProcess(process) => renderer.post_process = process,
                 _ => {}
             }
         }
@@ -184,8 +187,14 @@ fn guess_finds_samples_in_corners_at_rate_1() {
 
 #[test]
 fn guess_finds_each_mistake_of_another_renderer() {
-    all_are_found(1, &MISTAKES.map(|cause| vec![cause]));
     let more = [
+        Cause::Coverage(PixelCoverage::Exact),
+        Cause::PostProcess(PostProcess::Smaa),
+    ];
+    let all: Vec<Vec<Cause>> = MISTAKES.into_iter().chain(more).map(|cause| vec![cause]).collect();
+    all_are_found(1, &all);
+    let more = [
+        Cause::Coverage(PixelCoverage::Exact),
         Cause::Resolve(ResolveSpace::Linear),
         Cause::SampleRate(rate(1)),
         Cause::SampleRate(rate(16)),
@@ -213,6 +222,8 @@ fn guess_finds_pairs_of_mistakes() {
             vec![Cause::EncodedTwice, Cause::SampleRate(rate(1))],
             vec![Cause::Shifted([0.5, 0.0]), Cause::NotEncoded],
             vec![Cause::Resolve(ResolveSpace::Linear), corner],
+            vec![Cause::SampleRate(rate(1)), Cause::PostProcess(PostProcess::Smaa)],
+            vec![Cause::Coverage(PixelCoverage::Exact), Cause::SwappedChannels],
         ],
     );
 }

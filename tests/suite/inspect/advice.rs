@@ -181,8 +181,7 @@ fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
     let mut unbiased = *own;
     unbiased.detail.bias = LodBias::default();
     all.extend([automatic, unbiased]);
-    let levels = [LevelSampling::Linear, LevelSampling::Nearest];
-    all.extend(levels.map(|level_sampling| RenderSettings { level_sampling, ..*own }));
+    all.extend(LevelSampling::ALL.map(|level_sampling| RenderSettings { level_sampling, ..*own }));
     for anisotropy in Anisotropy::STEPS.into_iter().filter(|taps| *taps > own.anisotropy) {
         all.push(RenderSettings { anisotropy, ..*own });
     }

@@ -1,5 +1,5 @@
 //! Another renderer, as a student might write it: triangle by triangle into a buffer of samples, in floats, without the
-//! engine's snapping, tiles or spans. It makes mistakes on request.
+//! engine's snapping, tiles or spans. It makes mistakes on request, and does what other renderers do.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -10,13 +10,15 @@
 use glam::{DAffine2, DVec2};
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{FillRule, Polygon, ViewTransform};
-use rasterscope::raster::{Framebuffer, ShadingRate};
+use rasterscope::post::PostProcess;
+use rasterscope::raster::{Framebuffer, PixelCoverage, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::Texture;
 
 use super::brute_force::{Color, filtered, hairline, premultiply, to_light, to_stored};
+use super::smaa::Picture;
 
 /// What it does otherwise.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +38,10 @@ pub(crate) struct Foreign {
     pub(crate) rules: Rules,
     /// Colours are those of the pixel's centre, wherever samples lie.
     pub(crate) shading: ShadingRate,
+    /// By exact areas, shapes are blended by the part of a pixel that they cover, in the colour of its centre.
+    pub(crate) coverage: PixelCoverage,
+    /// What is done to finished pixels.
+    pub(crate) post_process: PostProcess,
     /// How textures are read.
     pub(crate) reads: RenderSettings,
 }
@@ -59,6 +65,8 @@ impl Foreign {
             flips_v: false,
             rules: Rules::Standard,
             shading: ShadingRate::Sample,
+            coverage: PixelCoverage::Sampled,
+            post_process: PostProcess::None,
             reads: settings,
         }
     }
@@ -82,6 +90,10 @@ impl Foreign {
                 exact
             }
         };
+        assert!(
+            !self.coverage.is_exact() || self.side == 1,
+            "an area is that of a pixel"
+        );
         let side = i64::from(self.side);
         let (columns, rows) = (i64::from(width) * side, i64::from(height) * side);
         let mut samples = Samples {
@@ -157,7 +169,8 @@ impl Foreign {
                     return None;
                 }
             }
-            let shaded = if self.shading.is_once() { at.floor() + 0.5 } else { at };
+            let is_once = self.shading.is_once() || self.coverage.is_exact();
+            let shaded = if is_once { at.floor() + 0.5 } else { at };
             Some(color(weights_at(shaded), corners))
         });
     }
@@ -169,8 +182,17 @@ impl Foreign {
         let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) * side + 2.0;
         for j in (low.y.floor() as i64).max(0)..(high.y.ceil() as i64).min(samples.height) {
             for i in (low.x.floor() as i64).max(0)..(high.x.ceil() as i64).min(samples.width) {
-                let at = DVec2::new(i as f64 + self.at, j as f64 + self.at) / side;
-                if let Some(color) = color(at) {
+                let at = |x: f64, y: f64| DVec2::new(i as f64 + x, j as f64 + y) / side;
+                if self.coverage.is_exact() {
+                    const PARTS: u32 = 16;
+                    let place = |k: u32| (f64::from(k) + 0.5) / f64::from(PARTS);
+                    let places = (0..PARTS).flat_map(|y| (0..PARTS).map(move |x| at(place(x), place(y))));
+                    let covered: Vec<Color> = places.filter_map(&color).collect();
+                    if let Some(color) = covered.first() {
+                        let part = covered.len() as f64 / f64::from(PARTS * PARTS);
+                        self.blend(samples, [i, j], color.map(|channel| channel * part));
+                    }
+                } else if let Some(color) = color(at(self.at, self.at)) {
                     self.blend(samples, [i, j], color);
                 }
             }
@@ -239,7 +261,27 @@ impl Foreign {
             });
             *pixel = u32::from_be_bytes([255, bytes[0], bytes[1], bytes[2]]);
         }
+        if self.post_process == PostProcess::Smaa {
+            self.smooth(&mut frame);
+        }
         frame
+    }
+
+    fn smooth(&self, frame: &mut Framebuffer) {
+        let size = [frame.width(), frame.height()].map(u32::cast_signed);
+        let straight = |pixel: &u32| {
+            let [a, r, g, b] = pixel.to_be_bytes();
+            [r, g, b, a]
+        };
+        let picture = Picture {
+            size,
+            pixels: frame.pixels().iter().map(straight).collect(),
+        };
+        let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        for (pixel, [x, y]) in frame.pixels_mut().iter_mut().zip(places) {
+            let [r, g, b, a] = picture.smoothed(x, y, self.resolve)[0].map(|channel| (channel + 0.5).floor() as u8);
+            *pixel = u32::from_be_bytes([a, r, g, b]);
+        }
     }
 }
 

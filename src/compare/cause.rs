@@ -44,7 +44,7 @@ pub enum Cause {
     Shading(ShadingRate),
     /// What tells how much of a pixel a primitive covers.
     Coverage(PixelCoverage),
-    /// What is done to finished pixels.
+    /// What is done to finished pixels; SMAA to those of one sample.
     PostProcess(PostProcess),
 }
 
@@ -112,7 +112,7 @@ impl fmt::Display for Cause {
                 f.write_str("exact coverage: the area of each shape, as vector renderers do")
             }
             Self::Coverage(PixelCoverage::Sampled) => f.write_str("coverage by samples instead of exact areas"),
-            Self::PostProcess(PostProcess::Smaa) => f.write_str("SMAA: finished pixels smoothed along their edges"),
+            Self::PostProcess(PostProcess::Smaa) => f.write_str("SMAA: one sample per pixel, smoothed along edges"),
             Self::PostProcess(PostProcess::None) => f.write_str("finished pixels left as they are, without SMAA"),
         }
     }

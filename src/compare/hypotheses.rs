@@ -193,17 +193,17 @@ impl<'a> Search<'a> {
         found.any(|found| found.error as f64 <= NEGLIGIBLE * before)
     }
 
-    /// Whether each cause makes a difference beside the others, and SMAA has the one sample per pixel that it is made for.
+    /// Whether each cause makes a difference beside the others.
     fn makes_sense(&self, causes: &[Cause]) -> bool {
         let settings = self.trial.settings(causes);
         let is_single = settings.sample_rate == SampleRate::ONE;
         let is_exact = settings.coverage.is_exact();
-        let is_mixed = !is_single || is_exact || settings.post_process != PostProcess::None;
+        let is_smoothed = settings.post_process == PostProcess::Smaa;
         causes.iter().all(|cause| match cause {
-            Cause::Resolve(_) => is_mixed,
+            Cause::Resolve(_) => !is_single || is_exact || is_smoothed,
             Cause::Shading(_) => !is_single && !is_exact,
-            Cause::SampleRate(_) | Cause::Corners(_) => !is_exact,
-            Cause::PostProcess(process) => *process == PostProcess::None || is_single,
+            Cause::SampleRate(_) => !is_exact && !causes.contains(&Cause::PostProcess(PostProcess::Smaa)),
+            Cause::Corners(_) => !is_exact,
             _ => true,
         })
     }

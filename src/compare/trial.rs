@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
 use crate::geometry::ViewTransform;
-use crate::raster::Framebuffer;
+use crate::post::PostProcess;
+use crate::raster::{Framebuffer, SampleRate};
 use crate::render::{self, CancelToken, RenderSettings, Subject};
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 
@@ -47,7 +48,13 @@ impl<'a> Trial<'a> {
                 Cause::Resolve(space) => settings.resolve = space,
                 Cause::Shading(shading) => settings.shading = shading,
                 Cause::Coverage(coverage) => settings.coverage = coverage,
-                Cause::PostProcess(process) => settings.post_process = process,
+                Cause::PostProcess(process) => {
+                    settings.post_process = process;
+                    // SMAA is made for one sample per pixel.
+                    if process == PostProcess::Smaa {
+                        settings.sample_rate = SampleRate::ONE;
+                    }
+                }
                 Cause::PixelSampling(sampling) => settings.pixel_sampling = sampling,
                 Cause::LevelSampling(sampling) => settings.level_sampling = sampling,
                 _ => {}

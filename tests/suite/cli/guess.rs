@@ -74,7 +74,7 @@ impl Study {
                 Cause::Resolve(space) => renderer.resolve = space,
                 Cause::Shading(shading) => renderer.shading = shading,
                 Cause::Coverage(coverage) => (renderer.coverage, renderer.side) = (coverage, 1),
-                Cause::PostProcess(process) => renderer.post_process = process,
+                Cause::PostProcess(process) => (renderer.post_process, renderer.side) = (process, 1),
                 _ => {}
             }
         }
@@ -200,6 +200,7 @@ fn guess_finds_each_mistake_of_another_renderer() {
         Cause::SampleRate(rate(16)),
         Cause::Shading(ShadingRate::Centre),
         Cause::LevelSampling(LevelSampling::Linear),
+        Cause::PostProcess(PostProcess::Smaa),
     ];
     let all: Vec<Vec<Cause>> = MISTAKES.into_iter().chain(more).map(|cause| vec![cause]).collect();
     all_are_found(4, &all);
@@ -222,7 +223,7 @@ fn guess_finds_pairs_of_mistakes() {
             vec![Cause::EncodedTwice, Cause::SampleRate(rate(1))],
             vec![Cause::Shifted([0.5, 0.0]), Cause::NotEncoded],
             vec![Cause::Resolve(ResolveSpace::Linear), corner],
-            vec![Cause::SampleRate(rate(1)), Cause::PostProcess(PostProcess::Smaa)],
+            vec![Cause::PostProcess(PostProcess::Smaa), Cause::UpsideDown],
             vec![Cause::Coverage(PixelCoverage::Exact), Cause::SwappedChannels],
         ],
     );

@@ -13,13 +13,13 @@ use rasterscope::figure::Record;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Detail, Explanation, Question};
 use rasterscope::post::PostProcess;
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::raster::{CustomPattern, Framebuffer, PixelCoverage, SamplePattern, SampleRate};
 use rasterscope::render::{self, RenderSettings, Subject};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling, Texture, Wrap};
-use rasterscope::viewer::Lesson;
 use rasterscope::viewer::script::Script;
+use rasterscope::viewer::{Lesson, patterns};
 
 /// Width and height of the pictures that are drawn, in pixels.
 const SIZE: [u32; 2] = [24, 20];
@@ -38,7 +38,7 @@ pub(crate) struct Target {
 }
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 7] = [
+pub(crate) const TARGETS: [Target; 8] = [
     Target {
         name: "scene",
         run: scene,
@@ -64,6 +64,11 @@ pub(crate) const TARGETS: [Target; 7] = [
         name: "lesson",
         run: lesson,
         seeds: &["assets/lessons"],
+    },
+    Target {
+        name: "pattern",
+        run: pattern,
+        seeds: &["assets/patterns", "fuzz/seeds/pattern"],
     },
     Target {
         name: "script",
@@ -175,6 +180,19 @@ pub(crate) fn lesson(bytes: &[u8]) {
     }
 }
 
+/// A sample pattern in TOML, and the text that records have of it.
+pub(crate) fn pattern(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match patterns::parse(text, "fuzz.toml") {
+        Ok(pattern) => {
+            let again = CustomPattern::parse(&pattern.to_string());
+            assert_eq!(again, Some(pattern), "a record has the same samples");
+        }
+        Err(problem) => one_line(&problem),
+    }
+    let _ = patterns::named(text);
+}
+
 /// A script. It is read and not played, because its commands may save files.
 pub(crate) fn script(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
@@ -250,6 +268,7 @@ impl Choices {
             rules: self.among(Rules::ALL.as_slice()),
             resolve: self.among(&[ResolveSpace::Stored, ResolveSpace::Linear]),
             post_process: self.among(&PostProcess::ALL),
+            coverage: self.among(&PixelCoverage::ALL),
             ..RenderSettings::default()
         }
     }

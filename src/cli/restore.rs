@@ -88,43 +88,83 @@ pub(super) fn scene_path(restored: &Restored) -> PathBuf {
     restored.spec.scene.address().into()
 }
 
-/// The same words with the contents of files in place of their names, where the values of a setting may lie in files: each of a
-/// list with commas. Only a person's own words come here; the command line of a record names no file.
+/// What the value of an option may name files in.
+#[derive(Clone, Copy)]
+enum Holds {
+    /// A list of values of a setting.
+    Values(&'static PictureSetting),
+    /// Changes of settings, such as `sample-rate 16, pattern own.toml`.
+    Changes,
+    /// A setting and a list of its values, `pattern=grid,own.toml`.
+    Axis,
+}
+
+impl Holds {
+    /// What an option without its dashes holds; `None` where it names no files, or files that are read later.
+    fn of(option: &str) -> Option<Self> {
+        match option {
+            "with" | "against" => Some(Self::Changes),
+            "vary" => Some(Self::Axis),
+            option => picture::find(option)
+                .filter(|setting| setting.reads_files())
+                .map(Self::Values),
+        }
+    }
+
+    /// The same value with the contents of files in place of their names.
+    fn read(self, value: &str) -> Result<String, String> {
+        match self {
+            Self::Values(setting) => setting.read_list(value),
+            Self::Changes => picture::read_files(value, None),
+            Self::Axis => match value.split_once('=') {
+                Some((name, values)) => match Self::of(name.trim()) {
+                    Some(Self::Values(setting)) => Ok(format!("{name}={}", setting.read_list(values)?)),
+                    _ => Ok(value.to_owned()),
+                },
+                None => Ok(value.to_owned()),
+            },
+        }
+    }
+}
+
+/// The same words with the contents of files in place of their names, where the values of a setting may lie in files. Only a
+/// person's own words come here; the command line of a record names no file.
 ///
 /// # Errors
 /// When a file holds no value of its setting.
 fn with_files_read(words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
-    let mut before: Option<&'static PictureSetting> = None;
+    let mut before: Option<(String, Holds)> = None;
     let mut is_option = true;
     let read = |word: OsString| {
         let text = word.to_str().unwrap_or_default();
-        let (head, setting, value) = match (before.take(), text.strip_prefix("--")) {
-            (Some(setting), _) => (String::new(), setting, text),
+        let (head, option, holds, value) = match (before.take(), text.strip_prefix("--")) {
+            (Some((option, holds)), _) => (String::new(), option, holds, text),
             (None, Some("")) => {
                 is_option = false;
                 return Ok(word);
             }
-            (None, Some(option)) if is_option => match option.split_once('=') {
-                Some((name, value)) if picture::find(name).is_some_and(PictureSetting::reads_files) => {
-                    let Some(setting) = picture::find(name) else {
+            (None, Some(option)) if is_option => {
+                let (name, value) = option
+                    .split_once('=')
+                    .map_or((option, None), |(name, value)| (name, Some(value)));
+                let holds = Holds::of(name).map(|holds| (name.to_owned(), holds));
+                match (holds, value) {
+                    (Some((name, holds)), Some(value)) => (format!("--{name}="), name, holds, value),
+                    (holds, _) => {
+                        before = holds.filter(|_| value.is_none());
                         return Ok(word);
-                    };
-                    (format!("--{name}="), setting, value)
+                    }
                 }
-                _ => {
-                    before = picture::find(option).filter(|setting| setting.reads_files());
-                    return Ok(word);
-                }
-            },
+            }
             _ => return Ok(word),
         };
-        let values: Result<Vec<String>, String> = value.split(',').map(|value| setting.read(value, None)).collect();
-        let values = values.map_err(|problem| Failure::input(format!("--{}: {problem}", setting.option)))?;
-        let is_same = values.join(",") == value;
-        Ok(if is_same {
+        let values = holds
+            .read(value)
+            .map_err(|problem| Failure::input(format!("--{option}: {problem}")))?;
+        Ok(if values == value {
             word.clone()
         } else {
-            (head + &values.join(",")).into()
+            (head + &values).into()
         })
     };
     words.into_iter().map(read).collect()

@@ -26,6 +26,8 @@ use crate::viewer::{BoardNumbers, BoardSort, Choice, PictureSpec, Restored, Scen
 const MAX_CHOICES: usize = 1000;
 /// Pixels of the chart.
 const CHART: [u32; 2] = [1500, 1000];
+/// The setting of how many samples there are.
+const RATE: &str = "sample-rate";
 /// The columns of the table after those of the settings.
 const COLUMNS: [&str; 7] = ["median_ms", "min_ms", "peak_mb", "rmse", "psnr_db", "ssim", "flip"];
 
@@ -339,27 +341,32 @@ impl Row {
 
 impl Sweep {
     /// What was measured, in the order in which it is told.
-    fn sorted(&self, sort: Option<BoardSort>) -> Vec<(&Choice, &Row)> {
-        let choices = self.specs.iter().map(|(choice, _)| choice);
-        let mut rows: Vec<(&Choice, &Row)> = choices.zip(&self.rows).collect();
+    fn sorted(&self, sort: Option<BoardSort>) -> Vec<(&(Choice, PictureSpec), &Row)> {
+        let mut rows: Vec<_> = self.specs.iter().zip(&self.rows).collect();
         if let Some(sort) = sort {
             rows.sort_by(|(_, a), (_, b)| sort.order(Some(&a.numbers()), Some(&b.numbers())));
         }
         rows
     }
 
-    /// Names and values of the settings that `wanted` names, and what was measured.
-    fn table(&self, options: &SweepOptions, wanted: impl Fn(&str) -> bool) -> Table {
-        let of_choice = |choice: &Choice, part: fn(&(String, String)) -> String| -> Vec<String> {
-            choice.iter().filter(|(name, _)| wanted(name)).map(part).collect()
+    /// Names and values of settings, and what was measured: of the settings that `cell` has a cell for.
+    fn table(&self, options: &SweepOptions, cell: impl Fn(&str, &str) -> Option<String>) -> Table {
+        let of_choice = |choice: &Choice| -> Vec<(String, String)> {
+            let cells = choice
+                .iter()
+                .map(|(name, value)| Some((name.clone(), cell(name, value)?)));
+            cells.flatten().collect()
         };
-        let mut names = self.specs.first().map_or_else(Vec::new, |(choice, _)| {
-            of_choice(choice, |(name, _)| name.replace('-', "_"))
-        });
+        let first = self.specs.first();
+        let named = first.map_or_else(Vec::new, |(choice, _)| of_choice(choice));
+        let mut names: Vec<String> = named.into_iter().map(|(name, _)| name.replace('-', "_")).collect();
+        let tells_rates = self.has_own_rates();
+        names.extend(tells_rates.then(|| RATE.replace('-', "_")));
         names.extend(COLUMNS.map(str::to_owned));
         let rows = self.sorted(options.sort).into_iter();
-        let lines = rows.map(|(choice, row)| {
-            let mut values = of_choice(choice, |(_, value)| value.clone());
+        let lines = rows.map(|((choice, spec), row)| {
+            let mut values: Vec<String> = of_choice(choice).into_iter().map(|(_, value)| value).collect();
+            values.extend(tells_rates.then(|| spec.render.sample_rate.samples().to_string()));
             values.extend(row.cells());
             values
         });
@@ -370,13 +377,22 @@ impl Sweep {
 
     /// The table for a reader, without settings that all rows share.
     fn short_table(&self, options: &SweepOptions) -> Table {
-        self.table(options, |name| options.axes.0.axes().any(|axis| axis.name == name))
+        let axis = |name: &str| options.axes.0.axes().find(|axis| axis.name == name);
+        self.table(options, |name, value| Some(axis(name)?.short(value).to_owned()))
+    }
+
+    /// Whether patterns bring numbers of samples of their own, which no list tells.
+    fn has_own_rates(&self) -> bool {
+        let rate = |(_, spec): &(Choice, PictureSpec)| spec.render.sample_rate;
+        let is_listed = |(choice, _): &(Choice, PictureSpec)| choice.iter().any(|(name, _)| name == RATE);
+        let differ = self.specs.windows(2).any(|two| rate(&two[0]) != rate(&two[1]));
+        differ && !self.specs.iter().any(is_listed)
     }
 
     /// Writes table and chart, or neither.
     fn write(&self, options: &SweepOptions, chart: &Path, mut guard: Guard) -> Result<(), Failure> {
         guard.protect_contents(self.textures.iter().copied());
-        let table = self.table(options, |_| true).csv();
+        let table = self.table(options, |_, value| Some(value.to_owned())).csv();
         let mut files = vec![NewFile::by_user(&options.csv, table.into_bytes())];
         if let Some(markdown) = &options.markdown {
             let table = self.short_table(options).markdown();
@@ -406,7 +422,7 @@ impl Sweep {
                 values.join(", ")
             });
             let point = |((choice, _), row): &(&(Choice, PictureSpec), &Row)| {
-                let words = first.map_or("", |axis| value(choice, &axis.name));
+                let words = first.map_or("", |axis| axis.short(value(choice, &axis.name)));
                 ([row.median_ms, row.quality(options.quality)], words.to_owned())
             };
             PlotSeries {

@@ -3,12 +3,14 @@
 use std::fmt::Write as _;
 
 use super::model::{Explanation, Resolve, Rounding};
-use super::numbers::number;
+use super::numbers::{number, runs};
 use super::smoothing::Smoothing;
 use crate::color::{ResolveSpace, encoded};
 
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
+/// Places that several samples share of which each is told at most.
+const MOST_PLACES: usize = 8;
 
 impl Explanation {
     /// How the samples became the colour.
@@ -37,6 +39,7 @@ impl Explanation {
                 "Each of the {} samples weighs {weight}; the pixel is their mean.",
                 resolve.samples
             ));
+            lines.extend(self.weighted_places());
         }
         if self.averages_light() {
             let words = "Their light is averaged, each weighted by its alpha: sRGB values are decoded before and encoded after.";
@@ -50,6 +53,35 @@ impl Explanation {
         let channels = if self.resolved()[3] == 255 { 0..3 } else { 0..4 };
         for channel in channels {
             lines.push(format!("{:5}  {}", names[channel], self.channel(channel)));
+        }
+        lines
+    }
+
+    /// The places that several samples share: by that a place of a custom pattern weighs more than others.
+    fn weighted_places(&self) -> Vec<String> {
+        let mut places: Vec<([f64; 2], Vec<usize>)> = Vec::new();
+        for (number, sample) in self.samples.iter().enumerate() {
+            match places
+                .iter_mut()
+                .find(|(at, _)| at.map(f64::to_bits) == sample.position.map(f64::to_bits))
+            {
+                Some((_, samples)) => samples.push(number),
+                None => places.push((sample.position, vec![number])),
+            }
+        }
+        places.retain(|(_, samples)| samples.len() > 1);
+        let line = |(at, samples): &([f64; 2], Vec<usize>)| {
+            let weight = format!("{}/{}", samples.len(), self.samples.len());
+            format!(
+                "Samples {} are one place, ({}, {}), which weighs {weight}.",
+                runs(samples),
+                number(at[0]),
+                number(at[1])
+            )
+        };
+        let mut lines: Vec<String> = places.iter().take(MOST_PLACES).map(line).collect();
+        if places.len() > MOST_PLACES {
+            lines.push(format!("So are those of {} other places.", places.len() - MOST_PLACES));
         }
         lines
     }

@@ -54,6 +54,20 @@ fn drop_opens_the_lesson() {
     program.shows_somewhere(&beside_the_text(&second), "the second step");
 }
 
+#[test]
+fn drop_takes_the_pattern() {
+    let program = Program::start_bare(&flat());
+    program.shows(&viewed(&flat(), &[]), "the first picture");
+    let pattern = program.folder.path().join("own.toml");
+    let text = "name = 'own'\nsamples = [{ x = 0.25, y = 0.75 }, { x = 0.5, y = 0.5, weight = 2 }]";
+    std::fs::write(&pattern, text).unwrap();
+    drop_file(&program, &pattern);
+    let own = Command::set("pattern", "own:64/192+128/128x2").expect("a value");
+    let drawn = viewed(&flat(), &[own]);
+    assert!(drawn != viewed(&flat(), &[]), "it makes a difference");
+    program.shows(&drawn, "the same scene by the samples of the file");
+}
+
 /// The part of the picture that no panel covers, of a small window.
 fn beside_the_text(picture: &Framebuffer) -> Framebuffer {
     let ([left, top], [width, height]) = ([320, 100], [160, 240]);

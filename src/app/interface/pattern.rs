@@ -161,10 +161,12 @@ fn points(ui: &mut Ui, statistics: &PatternStatistics, side: f32) -> Response {
     painter.rect_filled(square, 0.0, ui.visuals().extreme_bg_color);
     painter.rect_stroke(square, 0.0, Stroke::new(1.0, weak), StrokeKind::Inside);
     let radius = (side / 10.0 / (statistics.points.len() as f32).sqrt()).clamp(1.2, 4.0);
-    for point in &statistics.points {
+    for (point, count) in &statistics.places {
         #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
         let at = square.min + vec2(point[0] as f32, point[1] as f32) * side;
-        painter.circle_filled(at, radius, ink);
+        // Its area is the weight; a heavy one hides no other.
+        let heavier = (*count as f32).sqrt().min(4.0);
+        painter.circle_filled(at, radius * heavier, ink);
         let stroke = Stroke::new(1.0, ink);
         painter.line_segment(
             [pos2(at.x, square.max.y + 2.0), pos2(at.x, square.max.y + TICK)],
@@ -176,12 +178,17 @@ fn points(ui: &mut Ui, statistics: &PatternStatistics, side: f32) -> Response {
         );
     }
     let [columns, rows] = statistics.projections;
+    let heaviest = statistics.places.iter().map(|(_, count)| *count).max();
+    let weights = heaviest.filter(|count| *count > 1).map_or(String::new(), |count| {
+        format!("; the heaviest place weighs {count} of {}", statistics.points.len())
+    });
     let name = format!(
-        "{} points in {columns} columns and {rows} rows",
-        statistics.points.len()
+        "{} points in {columns} columns and {rows} rows{weights}",
+        statistics.places.len()
     );
-    let tip =
-        "The samples of a pixel. The lines below and beside it are what a vertical and a level edge can tell apart.";
+    let tip = format!(
+        "The samples of a pixel{weights}. The lines below and beside it are what a vertical and a level edge can tell apart."
+    );
     response.on_hover_text(tip).accessible_name(name)
 }
 

@@ -32,6 +32,8 @@ const POINTS: u32 = 1024;
 pub struct PatternStatistics {
     /// The points, right and down from the pixel's corner, `0.0..1.0`, in the order of samples.
     pub points: Vec<Point>,
+    /// Where they lie, and how many in each place: more than one where a custom pattern weighs it so.
+    pub places: Vec<(Point, usize)>,
     /// How much the part of them that lies in a box from the pixel's corner differs from its area at most.
     pub star_discrepancy: f64,
     /// The least distance between two of them in pixels, those of the pixels around included, as if these had the same.
@@ -46,6 +48,7 @@ impl PatternStatistics {
     /// Of the pixel in this column and row; the spectrum is the mean of many.
     pub fn new(pattern: SamplePattern, rate: SampleRate, seed: Seed, pixel: [i32; 2]) -> Self {
         let points = pattern.points(rate, seed, pixel);
+        let places = places(&points);
         let different = |axis: usize| {
             let mut places: Vec<f64> = points.iter().map(|point| point[axis]).collect();
             places.sort_by(f64::total_cmp);
@@ -56,11 +59,15 @@ impl PatternStatistics {
             star_discrepancy: star_discrepancy(&points),
             least_distance: match pattern {
                 // A sample of a weight above one is repeated, which is not near to another.
-                SamplePattern::Custom(_) => least_distance(&different_points(&points)),
+                SamplePattern::Custom(_) => {
+                    let different: Vec<Point> = places.iter().map(|(at, _)| *at).collect();
+                    least_distance(&different)
+                }
                 _ => least_distance(&points),
             },
             projections: [different(0), different(1)],
             spectrum: pattern.spectrum(rate, seed),
+            places,
             points,
         }
     }
@@ -126,12 +133,14 @@ fn star_discrepancy(points: &[Point]) -> f64 {
     worst
 }
 
-/// The points without those that are there already.
-fn different_points(points: &[Point]) -> Vec<Point> {
-    let mut different = points.to_vec();
-    different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    different.dedup();
-    different
+/// Where points lie, and how many of them in each place.
+fn places(points: &[Point]) -> Vec<(Point, usize)> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    sorted
+        .chunk_by(|a, b| a.map(f64::to_bits) == b.map(f64::to_bits))
+        .filter_map(|same| Some((*same.first()?, same.len())))
+        .collect()
 }
 
 /// The least distance between two points, in pixels, where the same points lie in each pixel around.

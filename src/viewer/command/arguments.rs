@@ -149,14 +149,15 @@ pub(in crate::viewer) const BOARD: Argument = argument(Toggle::FORM, |text| {
 
 pub(in crate::viewer) const BOARD_ADD: Argument =
     argument("changes of A such as \"sample-rate 16, pattern sobol\"", |text| {
-        picture::parse_changes(text).map(BoardCommand::Add).map(Command::Board)
+        let text = picture::read_files(text, None).ok()?;
+        picture::parse_changes(&text).map(BoardCommand::Add).map(Command::Board)
     });
 
 pub(in crate::viewer) const BOARD_VARY: Argument = argument(
     "a setting, with or without values, such as sample-rate 1,4,16",
     |text| {
         let axis = match text.split_once(char::is_whitespace) {
-            Some((name, values)) => Axis::of(name, values).ok()?,
+            Some((name, values)) => Axis::read(name, values).ok()?,
             None => Axis::first(picture::find(text)?),
         };
         Some(Command::Board(BoardCommand::Vary(axis)))
@@ -197,7 +198,10 @@ fn tile(text: &str) -> Option<usize> {
 
 pub(in crate::viewer) const AGAINST: Argument = argument(
     "settings|truth|truth stored|truth linear|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",
-    |text| Against::from_text(text).map(AbCommand::Compare).map(Command::Ab),
+    |text| {
+        let text = picture::read_files(text, None).ok()?;
+        Against::from_text(&text).map(AbCommand::Compare).map(Command::Ab)
+    },
 );
 
 pub(in crate::viewer) const SCENE: Argument = argument("a scene's number, from 1", |text| {
@@ -365,7 +369,7 @@ fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
         None
     } else {
         let (name, values) = text.split_once(char::is_whitespace)?;
-        Some(Axis::of(name, values).ok()?)
+        Some(Axis::read(name, values).ok()?)
     };
     Some(Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis))))
 }

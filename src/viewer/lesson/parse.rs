@@ -142,7 +142,7 @@ fn step(
                 let shown = toggle(text(value)?.trim());
                 step.explained = of_form(value, shown, Toggle::FORM)? == Toggle::On;
             }
-            "against" => against = Some(self::against(value)?),
+            "against" => against = Some(self::against(value, folder)?),
             "arrange" => arrangement = Some((arrange(value)?, key.span())),
             name => step.settings.push(setting(name, (key, value), folder)?),
         }
@@ -217,8 +217,10 @@ fn pin(value: &Value<'_>) -> Found<DVec2> {
     }
 }
 
-fn against(value: &Value<'_>) -> Found<Against> {
-    match Against::from_text(&text(value)?) {
+fn against(value: &Value<'_>, folder: Option<&Path>) -> Found<Against> {
+    let text = text(value)?;
+    let read = folder.map_or(Ok(text.clone()), |folder| picture::read_files(&text, Some(folder)));
+    match Against::from_text(&meant(value, read)?) {
         Some(against @ (Against::Truth(_) | Against::Changed(_))) => Ok(against),
         _ => mistake(
             value.span(),

@@ -1,17 +1,16 @@
 //! Where lessons come from: the program's own, and files.
 
 use crate::viewer::lesson::parse;
-use std::fs;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use crate::viewer::lesson::model::{Lesson, LessonError};
+use crate::viewer::settings::document;
 
 /// Starts the address of a built-in lesson.
 const PREFIX: &str = "lesson:";
 
-/// Largest file that is read, in bytes.
-const MOST_BYTES: u64 = 1 << 20;
+/// Largest file that is read, in KiB.
+const MOST_KIB: u64 = 1 << 10;
 
 /// The lessons that come with the program: names and documents.
 pub static BUILT_IN: [(&str, &str); 4] = [
@@ -72,23 +71,7 @@ impl LessonSource {
                 Lesson::parse(document, &self.address())
             }
             Self::File(path) => {
-                let unreadable =
-                    |error: std::io::Error| whole(format!("cannot be read: {error}; give a lesson in TOML"));
-                let mut bytes = Vec::new();
-                let is_file = fs::metadata(path).map_err(unreadable)?.is_file();
-                if !is_file {
-                    return Err(whole("is no file; give a lesson in TOML".to_owned()));
-                }
-                let file = fs::File::open(path).map_err(unreadable)?;
-                file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-                if bytes.len() as u64 > MOST_BYTES {
-                    let most = MOST_BYTES >> 20;
-                    return Err(whole(format!(
-                        "is larger than {most} MiB; split it into several lessons"
-                    )));
-                }
-                let text = String::from_utf8(bytes)
-                    .map_err(|_| whole("is no text in UTF-8; save it in that encoding".to_owned()))?;
+                let text = document::read(path, MOST_KIB, "give a lesson in TOML").map_err(whole)?;
                 parse::parse(&text, &self.address(), path.parent())
             }
         }

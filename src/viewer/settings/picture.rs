@@ -5,6 +5,8 @@
 
 pub use super::row::{About, Control, PanelRow, PictureSetting, SettingChange, SettingCommand, Told, Values};
 
+use std::path::Path;
+
 use super::Settings;
 use super::table::picture_settings;
 
@@ -73,7 +75,24 @@ pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, Strin
     text.split(',').map(one).collect()
 }
 
-/// The same; `None` where one of them is none.
+/// A text for [`changes`] with what lies in files in place of their names, from `folder` where a name is not
+/// absolute. Only what a user typed or opened comes here.
+///
+/// # Errors
+/// One line where a file holds no value of its setting.
+pub fn read_files(text: &str, folder: Option<&Path>) -> Result<String, String> {
+    let one = |part: &str| match part.trim().split_once(|c: char| c.is_whitespace() || c == '=') {
+        Some((name, value)) => match find(name).filter(|setting| setting.reads_files()) {
+            Some(setting) => Ok(format!("{name} {}", setting.read(value.trim(), folder)?)),
+            None => Ok(part.to_owned()),
+        },
+        None => Ok(part.to_owned()),
+    };
+    let parts: Result<Vec<String>, String> = text.split(',').map(one).collect();
+    Ok(parts?.join(","))
+}
+
+/// What [`changes`] finds; `None` where one of them is none.
 pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>> {
     changes(text).ok()
 }

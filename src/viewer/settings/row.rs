@@ -329,6 +329,15 @@ impl PictureSetting {
         }
     }
 
+    /// The same for a list of values with commas between them, from the folder of the process.
+    ///
+    /// # Errors
+    /// As [`PictureSetting::read`].
+    pub fn read_list(&self, text: &str) -> Result<String, String> {
+        let values: Result<Vec<String>, String> = text.split(',').map(|value| self.read(value, None)).collect();
+        Ok(values?.join(","))
+    }
+
     /// Whether a value may lie in a file.
     pub fn reads_files(&self) -> bool {
         matches!(self.values, Values::NamedOrWritten { .. })

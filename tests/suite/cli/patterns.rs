@@ -178,3 +178,102 @@ fn cli_pattern_file_is_in_the_record_itself() {
     let arguments = ["rerun", "c.png", "--check"];
     assert_refused(&run(folder.path(), &arguments), &arguments, &["own.toml", "--pattern"]);
 }
+
+/// A folder with the scene `a.svg` and the pattern `own.toml` of three samples in two places.
+fn folder_with_a_pattern() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.svg"), SCENE).unwrap();
+    let own = "name = \"own\"\ngrid = 4\nsamples = [{ x = 1, y = 3 }, { x = 2, y = 2, weight = 2 }]";
+    fs::write(folder.path().join("own.toml"), own).unwrap();
+    folder
+}
+
+#[test]
+fn cli_sheets_tell_how_many_samples_each_pattern_brings() {
+    let folder = folder_with_a_pattern();
+    let lists = |more: &[&str]| {
+        let first = ["sheet", "a.svg", "-o", "s.png", "--size", "40x30", "--force"];
+        done(folder.path(), &[&first, more].concat());
+        fs::read_to_string(folder.path().join("s/figures.md")).unwrap()
+    };
+    let told = lists(&["--pattern=msaa-8,grid,own.toml"]);
+    assert!(
+        told.contains("with pattern msaa-8 (8 samples), grid (1 sample), own (3 samples). Each"),
+        "{told}"
+    );
+    assert!(!told.contains("In all"), "no number of samples is that of all: {told}");
+    assert!(
+        folder.path().join("s/03_pattern-own-3-samples.png").is_file(),
+        "short names"
+    );
+    let told = lists(&["--pattern=grid,rotated", "--sample-rate=4"]);
+    assert!(
+        told.contains("with pattern grid, rotated. In all: sample rate 4"),
+        "{told}"
+    );
+    let said = done(folder.path(), &["rerun", "s.png", "--check"]);
+    assert!(said.contains("the same"), "{said}");
+}
+
+#[test]
+fn cli_sweeps_and_boards_take_patterns_from_files() {
+    let folder = folder_with_a_pattern();
+    let sweep = ["sweep", "a.svg", "--csv", "o.csv", "--size", "40x30", "--frames", "1"];
+    let said = done(folder.path(), &[&sweep[..], &["--pattern=grid,own.toml"]].concat());
+    let rows: Vec<Vec<&str>> = said.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(rows[0][..2], ["pattern", "sample_rate"], "{said}");
+    assert_eq!(
+        (&rows[1][..2], &rows[2][..2]),
+        (&["grid", "1"][..], &["own", "3"][..]),
+        "{said}"
+    );
+    let table = fs::read_to_string(folder.path().join("o.csv")).unwrap();
+    assert!(
+        table.contains("\nown:64/192+128/128x2,3,"),
+        "the samples themselves: {table}"
+    );
+    let board = |more: &[&str]| {
+        let first = [
+            "board",
+            "a.svg",
+            "--csv",
+            "--frames",
+            "1",
+            "--size",
+            "40x30",
+            "--region",
+            "0,0,40,30",
+        ];
+        done(folder.path(), &[&first, more].concat())
+    };
+    let varied = board(&["--vary", "pattern=grid,own.toml"]);
+    assert!(varied.contains("3,own"), "{varied}");
+    let added = board(&["--with", "A", "--with", "rules float, pattern own.toml"]);
+    assert!(added.contains("3,own"), "{added}");
+    fs::remove_file(folder.path().join("own.toml")).unwrap();
+    let arguments = ["board", "a.svg", "--with", "pattern own.toml"];
+    assert_refused(&run(folder.path(), &arguments), &arguments, &["--with", "own.toml"]);
+}
+
+#[test]
+fn cli_explanations_tell_what_places_weigh() {
+    let folder = folder_with_a_pattern();
+    let told = done(
+        folder.path(),
+        &[
+            "inspect",
+            "a.svg",
+            "--pixel",
+            "12,10",
+            "--size",
+            "40x30",
+            "--pattern",
+            "own.toml",
+        ],
+    );
+    assert!(told.contains("Each of the 3 samples weighs 1/3"), "{told}");
+    assert!(
+        told.contains("Samples 2, 3 are one place, (0.502, 0.502), which weighs 2/3."),
+        "{told}"
+    );
+}

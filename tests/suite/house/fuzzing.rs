@@ -115,6 +115,11 @@ fn fuzz_lesson() {
 }
 
 #[test]
+fn fuzz_pattern() {
+    smoke("pattern");
+}
+
+#[test]
 fn fuzz_script() {
     smoke("script");
 }

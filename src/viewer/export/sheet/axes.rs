@@ -1,6 +1,6 @@
 //! The axes of a sheet: settings by the names of the command line's options, each with a list of values.
 
-use crate::viewer::settings::picture::{PictureSetting, SettingChange};
+use crate::viewer::settings::picture::{self, PictureSetting, SettingChange};
 
 /// Settings with their values, in the order they were given in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -45,6 +45,15 @@ impl Axis {
         })
     }
 
+    /// The same of a picture setting, with values that it takes or that lie in files. Only what a user typed comes here.
+    ///
+    /// # Errors
+    /// As [`Axis::of`], and one line where a file holds no value.
+    pub fn read(name: &str, text: &str) -> Result<Self, String> {
+        let setting = picture::find(name).ok_or_else(|| format!("there is no setting {name}"))?;
+        Self::of(name, &setting.read_list(text)?)
+    }
+
     /// The same of a picture setting, with values that it takes.
     ///
     /// # Errors
@@ -72,7 +81,12 @@ impl Axis {
 
     /// A value in words, such as `sample rate 4`.
     pub fn words(&self, value: &str) -> String {
-        format!("{} {value}", self.title())
+        format!("{} {}", self.title(), self.short(value))
+    }
+
+    /// What people are shown of a value.
+    pub fn short<'v>(&self, value: &'v str) -> &'v str {
+        picture::find(&self.name).map_or(value, |setting| setting.short(value))
     }
 
     /// The setting in words, such as `sample rate`.
@@ -137,16 +151,17 @@ impl AxisLists {
         choices
     }
 
-    /// The labels of rows that several axes make, the first of them changing fastest.
-    pub(in crate::viewer) fn rows(axes: &[&Axis]) -> Vec<String> {
+    /// The labels of rows that several axes make, the first of them changing fastest; `words` says what a value is called.
+    pub(in crate::viewer) fn rows(axes: &[&Axis], words: impl Fn(&Axis, &str) -> String) -> Vec<String> {
         let mut labels = vec![String::new()];
         for axis in axes.iter().rev() {
             labels = labels
                 .iter()
                 .flat_map(|rest| {
+                    let words = &words;
                     axis.values.iter().map(move |value| match rest.as_str() {
-                        "" => axis.words(value),
-                        rest => format!("{}, {rest}", axis.words(value)),
+                        "" => words(axis, value),
+                        rest => format!("{}, {rest}", words(axis, value)),
                     })
                 })
                 .collect();
@@ -181,7 +196,7 @@ mod tests {
             .iter()
             .map(|(name, values)| Axis::parse(name, values).expect("a list"))
             .collect();
-        let labels = AxisLists::rows(&lists.axes().collect::<Vec<_>>());
+        let labels = AxisLists::rows(&lists.axes().collect::<Vec<_>>(), Axis::words);
         let choices = lists.choices().into_iter().map(|choice| {
             let words: Vec<String> = choice.iter().map(|(name, value)| format!("{name} {value}")).collect();
             words.join(", ")

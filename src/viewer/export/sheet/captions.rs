@@ -5,6 +5,9 @@ use crate::viewer::export::sheet::axes::{Axis, Choice};
 use crate::viewer::export::spec::PictureSpec;
 use crate::viewer::library::SceneSource;
 
+/// Settings of samples, by their options.
+const PATTERN: &str = "pattern";
+const RATE: &str = "sample-rate";
 /// Longest name of a scene, in characters.
 const MAX_NAME: usize = 200;
 
@@ -19,9 +22,62 @@ pub fn caption_of(spec: &PictureSpec) -> String {
     format!("{}.", parts.collect::<Vec<_>>().join(". "))
 }
 
+/// What the values of axes are called. Patterns may bring numbers of samples of their own: then each is told with its number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::viewer) struct Labels {
+    /// Values of the axis of patterns, and the samples of their panels.
+    rates: Vec<(String, u32)>,
+}
+
+impl Labels {
+    /// Those of some panels.
+    pub(in crate::viewer) fn of(panels: &[(Choice, PictureSpec)]) -> Self {
+        let rate = |(_, spec): &(Choice, PictureSpec)| spec.render.sample_rate;
+        let value = |choice: &Choice, wanted: &str| {
+            let known = choice.iter().find(|(name, _)| name == wanted);
+            known.map(|(_, value)| value.clone())
+        };
+        let is_chosen = |(choice, _): &(Choice, PictureSpec)| value(choice, RATE).is_some();
+        let differ = panels.windows(2).any(|two| rate(&two[0]) != rate(&two[1]));
+        let of_pattern =
+            |panel: &(Choice, PictureSpec)| value(&panel.0, PATTERN).map(|pattern| (pattern, rate(panel).samples()));
+        Self {
+            rates: if differ && !panels.iter().any(is_chosen) {
+                panels.iter().filter_map(of_pattern).collect()
+            } else {
+                Vec::new()
+            },
+        }
+    }
+
+    /// A value, such as `nearest` or `msaa-8 (8 samples)`.
+    fn value(&self, axis: &Axis, value: &str) -> String {
+        let mut rates = self.rates.iter().filter(|_| axis.name == PATTERN);
+        let short = axis.short(value);
+        match rates.find(|(known, _)| known == value) {
+            Some((_, 1)) => format!("{short} (1 sample)"),
+            Some((_, samples)) => format!("{short} ({samples} samples)"),
+            None => short.to_owned(),
+        }
+    }
+
+    /// A setting and its value, such as `pixel sampling nearest`.
+    pub(in crate::viewer) fn words(&self, axis: &Axis, value: &str) -> String {
+        format!("{} {}", axis.title(), self.value(axis, value))
+    }
+
+    /// Whether they tell a setting that is no axis.
+    fn tell(&self, option: &str) -> bool {
+        option == RATE && !self.rates.is_empty()
+    }
+}
+
 /// What differs between the panels of a sheet and what all of them share.
-pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], note: Option<&str>) -> String {
-    let list = |axis: &Axis| format!("{} {}", axis.title(), axis.values.join(", "));
+pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], labels: &Labels, note: Option<&str>) -> String {
+    let list = |axis: &Axis| {
+        let values: Vec<String> = axis.values.iter().map(|value| labels.value(axis, value)).collect();
+        format!("{} {}", axis.title(), values.join(", "))
+    };
     if axes.is_empty() {
         let caption = caption_of(first);
         return match note {
@@ -42,7 +98,9 @@ pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], note: Opti
             )
         }
     };
-    let shared = shared_words(first, |name| axes.iter().any(|axis| axis.name == name));
+    let shared = shared_words(first, |name| {
+        labels.tell(name) || axes.iter().any(|axis| axis.name == name)
+    });
     let shared = (!shared.is_empty()).then(|| format!("In all: {shared}"));
     let parts = [Some(what), shared]
         .into_iter()
@@ -53,10 +111,14 @@ pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], note: Opti
 }
 
 /// What tells a panel from the others.
-pub(in crate::viewer) fn difference<'a>(axes: impl Iterator<Item = &'a Axis>, choice: &Choice) -> String {
+pub(in crate::viewer) fn difference<'a>(
+    axes: impl Iterator<Item = &'a Axis>,
+    choice: &Choice,
+    labels: &Labels,
+) -> String {
     let words = axes.filter_map(|axis| {
         let (_, value) = choice.iter().find(|(name, _)| *name == axis.name)?;
-        Some(axis.words(value))
+        Some(labels.words(axis, value))
     });
     words.collect::<Vec<_>>().join(", ")
 }

@@ -9,7 +9,7 @@ use crate::render;
 use crate::render::Subject;
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::export::sheet::axes::{Axis, AxisLists, Choice};
-use crate::viewer::export::sheet::captions::{caption, difference};
+use crate::viewer::export::sheet::captions::{Labels, caption, difference};
 use crate::viewer::export::spec::{PictureSpec, as_path, plain_record};
 
 /// Most panels of a sheet.
@@ -24,6 +24,7 @@ pub struct SheetRequest {
     axes: AxisLists,
     /// What each panel draws, the first axis changing fastest.
     panels: Vec<(Choice, PictureSpec)>,
+    labels: Labels,
     /// Ground and ink.
     pub theme: Ground,
     /// A sentence that the caption ends with.
@@ -82,6 +83,7 @@ impl SheetRequest {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             axes,
+            labels: Labels::of(&panels),
             panels,
             theme: Ground::default(),
             note: None,
@@ -102,7 +104,7 @@ impl SheetRequest {
     /// What tells each panel apart.
     pub(in crate::viewer) fn words(&self) -> impl Iterator<Item = String> {
         let panels = self.panels.iter();
-        panels.map(|(choice, _)| difference(self.axes.axes(), choice))
+        panels.map(|(choice, _)| difference(self.axes.axes(), choice, &self.labels))
     }
 
     /// About how many pixels all panels and the whole of them have.
@@ -170,7 +172,7 @@ impl SheetRequest {
                 spec: spec.clone(),
                 scene,
                 frame,
-                words: difference(self.axes.axes(), choice),
+                words: difference(self.axes.axes(), choice, &self.labels),
             });
         }
         Ok(panels)
@@ -184,12 +186,12 @@ impl SheetRequest {
         let mut headers = Vec::new();
         let named: Vec<String> = match axes.first() {
             None => vec![String::new()],
-            Some(axis) => axis.values.iter().map(|value| axis.words(value)).collect(),
+            Some(axis) => axis.values.iter().map(|value| self.labels.words(axis, value)).collect(),
         };
         let (columns, rows) = if self.axes.is_stack() {
             (vec![String::new()], named)
         } else if axes.len() > 1 {
-            let rest = AxisLists::rows(&axes[1..]);
+            let rest = AxisLists::rows(&axes[1..], |axis, value| self.labels.words(axis, value));
             (named, rest)
         } else if named.len() > columns {
             headers = named;
@@ -205,7 +207,7 @@ impl SheetRequest {
             columns,
             rows,
             headers,
-            caption: caption(first, &axes, self.note.as_deref()),
+            caption: caption(first, &axes, &self.labels, self.note.as_deref()),
             legend: None,
             ground: self.theme,
         }

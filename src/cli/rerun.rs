@@ -8,7 +8,7 @@ use super::options::rerun::RerunOptions;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
 use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
-use super::{board, diff, lesson, sheet};
+use super::{board, diff, lesson, sheet, spectrum};
 use crate::compare;
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::plain;
@@ -102,6 +102,10 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
         change: None,
         guard: guard(options),
     };
+    let protected = |(frame, record, inputs): (Framebuffer, Record, Guard)| Again {
+        guard: inputs.with(shot),
+        ..alone((frame, record))
+    };
     match verb {
         Verb::Render(_) => {
             let restored = restored(options)?;
@@ -135,17 +139,14 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
         Verb::Board(mut of_board) => {
             let restored = restored(options)?;
             of_board.scene = scene_path(&restored);
-            let (frame, record, inputs) = board::picture_of(&of_board, output)?;
-            let mut again = alone((frame, record));
-            again.guard = inputs.with(shot);
-            Ok(again)
+            board::picture_of(&of_board, output).map(protected)
         }
-        Verb::Diff(of_diff) => {
-            let (frame, record, inputs) = diff::picture(&of_diff, output)?;
-            let mut again = alone((frame, record));
-            again.guard = inputs.with(shot);
-            Ok(again)
+        Verb::Spectrum(mut of_spectrum) => {
+            let restored = restored(options)?;
+            of_spectrum.scene = scene_path(&restored);
+            spectrum::picture_of(&of_spectrum, output).map(protected)
         }
+        Verb::Diff(of_diff) => diff::picture(&of_diff, output).map(protected),
         Verb::Lesson(of_lesson) if of_lesson.slides.is_some() && of_lesson.step.is_some() => {
             let mut again = alone(lesson::picture(&of_lesson)?);
             if options.output.is_some() {

@@ -43,6 +43,7 @@ pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
         Verb::Render(options) => Ok(spec_of_render(&options)),
         Verb::Sheet(options) => super::sheet::spec(&options),
         Verb::Board(options) => Ok(super::board::own(&options)),
+        Verb::Spectrum(options) => Ok(super::spectrum::own(&options)),
         _ => Err(NO_SCENE.to_owned()),
     }
 }

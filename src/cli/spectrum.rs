@@ -1,5 +1,8 @@
 //! `rasterscope spectrum`: which waves a picture is made of, and which of them are aliases.
 
+use std::path::Path;
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use super::failure::{Failure, print, print_json};
@@ -7,10 +10,11 @@ use super::options::spectrum::SpectrumOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::render::{guard_of, name_for_png, unwritable, unwritable_by};
 use crate::compare::{SpectrumAnalysis, SpectrumOf, SpectrumReading, Wave};
-use crate::figure::{Destination, Guard, Named, NewFile, draw_spectrum, save_files, save_picture};
+use crate::figure::{Destination, Guard, Named, NewFile, Record, draw_spectrum, save_files, save_picture};
 use crate::plain;
-use crate::raster::Region;
-use crate::viewer::{Restored, SceneSource, SpectrumFound, SpectrumPlace, spectrum_of};
+use crate::raster::{Framebuffer, Region};
+use crate::scene::Scene;
+use crate::viewer::{PictureSpec, Restored, SceneSource, SpectrumFound, SpectrumPlace, spectrum_of};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
 const SHAPE: u32 = 1;
@@ -82,11 +86,12 @@ pub(super) fn run(options: &SpectrumOptions, restored: Option<&Restored>) -> Res
     }
     let region = region(options)?;
     let threads = options.picture.framing.threads;
-    let found = on_threads(threads, || find(options, region, restored, &mut guard))??;
+    let (found, scene) = on_threads(threads, || find(options, region, restored, &mut guard))??;
     let report = Report::new(options, &found);
     if let Some(output) = &options.output {
         let picture = on_threads(threads, || draw_spectrum(&found.analysis, &report.title()))?;
-        save_picture(&picture, None, Destination::by_user(output), &guard)
+        let record = record(options, &scene, output);
+        save_picture(&picture, Some(&record), Destination::by_user(output), &guard)
             .map_err(|error| unwritable(output, &error))?;
     }
     if let Some(csv) = &options.csv {
@@ -97,6 +102,32 @@ pub(super) fn run(options: &SpectrumOptions, restored: Option<&Restored>) -> Res
         return print_json(&serde_json::to_string(&report).map_err(Failure::other)?);
     }
     print(&report.text(options))
+}
+
+/// The picture of a spectrum and its record, for the file `output`, and what protects what it was drawn from.
+pub(super) fn picture_of(options: &SpectrumOptions, output: &Path) -> Result<(Framebuffer, Record, Guard), Failure> {
+    let mut guard = Guard::default();
+    let (found, scene) = find(options, region(options)?, None, &mut guard)?;
+    let picture = draw_spectrum(&found.analysis, &Report::new(options, &found).title());
+    Ok((picture, record(options, &scene, output), guard))
+}
+
+/// The picture that is transformed: the state that a spectrum brings back.
+pub(super) fn own(options: &SpectrumOptions) -> PictureSpec {
+    PictureSpec {
+        legend: false,
+        ..spec(&options.scene, &options.picture)
+    }
+}
+
+/// The command line that draws the spectrum again.
+fn record(options: &SpectrumOptions, scene: &Scene, output: &Path) -> Record {
+    let own = own(options);
+    let mut words = own.options();
+    words.push(format!("--of={}", options.of.name()));
+    let region = options.region;
+    words.extend(region.map(|Region { x, y, width, height }| format!("--region={x},{y},{width},{height}")));
+    own.record_of_command(("spectrum", words), scene, output)
 }
 
 /// The region that was asked for, as far as the picture has it.
@@ -124,20 +155,21 @@ fn find(
     region: Region,
     restored: Option<&Restored>,
     guard: &mut Guard,
-) -> Result<SpectrumFound, Failure> {
-    let picture = Picture::read(spec(&options.scene, &options.picture))?;
+) -> Result<(SpectrumFound, Arc<Scene>), Failure> {
+    let picture = Picture::read(own(options))?;
     picture.tell_changes(restored);
     picture.protect(guard);
     let pixel = [region.x + region.width / 2, region.y + region.height / 2];
     let place = SpectrumPlace { region, pixel };
     let found = spectrum_of(&picture.subject(), options.picture.size.0, place, options.of);
-    found.ok_or_else(|| {
+    let found = found.ok_or_else(|| {
         let [x, y] = pixel;
         Failure::input(format!(
             "{}: pixel {x},{y}, in the middle of the region, shows no texture; give a --region around one that does",
             plain::line(&SceneSource::from_address(&options.scene).address())
         ))
-    })
+    })?;
+    Ok((found, picture.scene))
 }
 
 impl Report {

@@ -15,8 +15,12 @@ const SIDE_BY_SIDE: f64 = 0.98;
 impl Explanation {
     /// Where this pixel has a seam, what it comes of. What cures it, if anything does, is for [`super::Truth`] to find out.
     pub(super) fn seams(&self) -> Vec<String> {
+        if self.exact {
+            // Nothing lies between areas, and no line belongs to both.
+            let seams = [self.conflation_words(), self.step_of_levels()];
+            return seams.into_iter().flatten().collect();
+        }
         let seams = [
-            self.conflation_words(),
             self.painted_twice(),
             self.pinhole_hint(),
             self.left_open(),

@@ -2,7 +2,7 @@
 
 use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
-use egui::{Color32, DragValue, Layout, TextEdit, Ui, vec2};
+use egui::{Align, Color32, DragValue, Layout, TextEdit, Ui, vec2};
 
 use super::controls::{command_button, gave_up, heading, row};
 use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
@@ -26,7 +26,7 @@ struct Number<'a> {
 /// Shows the numbers and adds what was changed to `commands`. Before a scene was read there are none: those of `last` stay
 /// meanwhile, so that nothing below moves under the pointer that goes from scene to scene.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, commands: &mut Vec<Command>) {
-    heading(ui, "View");
+    head(ui, commands);
     if let Some(numbers) = viewer.both().view_numbers() {
         *last = numbers;
         rows(ui, numbers, commands);
@@ -34,6 +34,22 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, command
         let is_reading = viewer.scene_list().current().is_some_and(SceneEntry::is_reading);
         ui.add_enabled_ui(is_reading, |ui| rows(ui, *last, &mut Vec::new()));
     }
+}
+
+/// The heading, and beside it the cards that measure what is seen.
+fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        heading(ui, "View");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            for (id, text) in [("board", "Board"), ("profile", "Profile"), ("spectrum", "Spectrum")] {
+                let command = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);
+                if command_button(ui, id, text).clicked() {
+                    commands.extend(command);
+                }
+            }
+        });
+    });
 }
 
 fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {

@@ -112,6 +112,18 @@ impl PictureSpec {
             ..plain_record(self.arguments(&output.display().to_string()), self.size)
         }
     }
+
+    /// The record of another picture of this scene, written to `output` by the command `verb` with these options.
+    pub fn record_of_command(
+        &self,
+        (verb, options): (&'static str, Vec<String>),
+        scene: &Scene,
+        output: &Path,
+    ) -> Record {
+        let mut record = self.record(scene, output);
+        RecipeOfCommand { verb, options }.put_into(&mut record, self, output);
+        record
+    }
 }
 
 /// A command that makes a picture of a scene, but for its files.

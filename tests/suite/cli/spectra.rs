@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use rasterscope::figure::Record;
+
 use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
@@ -146,4 +148,31 @@ fn spectrum_says_what_is_wrong() {
     assert!(one.contains("No waves"), "a single pixel: {one}");
     let large = done(folder.path(), &["spectrum", "stripes.svg", "--size=900x300"]);
     assert!(large.contains("at most 512 x 512 pixels are transformed"), "{large}");
+}
+
+#[test]
+fn spectrum_pictures_tell_how_they_were_made() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    let options = ["--of=scene", "--region=20,10,96,80", "--sample-rate=4", "-o", "s.png"];
+    done(folder.path(), &[&["spectrum", "stripes.svg"], VIEW, &options].concat());
+    let record = Record::of_file(&folder.path().join("s.png")).unwrap().unwrap();
+    assert_eq!(
+        record.settings.get("sample-rate").map(String::as_str),
+        Some("4"),
+        "its settings"
+    );
+    for word in ["spectrum", "--of=scene", "--region=20,10,96,80"] {
+        assert!(record.arguments.iter().any(|known| known == word), "{word}: {record:?}");
+    }
+    let said = done(folder.path(), &["rerun", "s.png", "--check"]);
+    assert!(said.starts_with("s.png: the same, all"), "{said}");
+    // Its scene and settings stand for the picture, as those of a board do.
+    done(folder.path(), &["render", "s.png", "-o", "again.png"]);
+    let frame = image::open(folder.path().join("again.png")).unwrap();
+    assert_eq!(
+        (frame.width(), frame.height()),
+        (200, 160),
+        "the picture that was transformed"
+    );
 }

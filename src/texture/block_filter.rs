@@ -31,12 +31,13 @@ use super::filter_plan::{Axis, GridLevel, Plan};
 use super::fixed_point::{FRACTION_BITS, MASS, tap_offset};
 use super::sample_filter::{BLOCK, SampleVector, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
-use super::texel_coordinates::{Positions, columns_and_rows};
+use super::texel_coordinates::{Positions, columns_and_rows, in_texture};
 use super::wrap::{Endless, outside};
-use super::{MipLevel, Wrap};
+use super::{MipLevel, PixelSampling, Wrap};
 
-/// Texels on each axis of the largest block.
-const SIDE: usize = 4;
+/// Texels on each axis of a block across a border, and of one that a cubic kernel reads.
+const SMALL: usize = 2;
+const LARGE: usize = 4;
 /// Stands for the offset of a block that reaches beyond the level.
 const BEYOND: i32 = -1;
 const HALF: i32 = 1 << (FRACTION_BITS - 1);
@@ -70,6 +71,22 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(
     points: &[[u16; 2]],
     out: &mut [C],
 ) {
+    if plan.pixel.cubic().is_none() {
+        filter_blocks::<S, C, SMALL>(simd, plan, weights, points, out);
+    } else {
+        filter_blocks::<S, C, LARGE>(simd, plan, weights, points, out);
+    }
+}
+
+/// The same with blocks of `SIDE x SIDE` texels.
+#[inline(always)]
+fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
+    simd: S,
+    plan: &Plan<'_>,
+    weights: &TexelWeights,
+    points: &[[u16; 2]],
+    out: &mut [C],
+) {
     let spread = Spread::new(simd);
     let count = plan.line.taps.count;
     let scale = per_tap(count);
@@ -86,9 +103,9 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(
                     level,
                     number,
                 };
-                cells.fill(simd, tap, &centres, points.len());
+                cells.fill::<S, SIDE>(simd, tap, &centres, points.len());
                 for (i, sum) in sums.iter_mut().enumerate().take(points.len()) {
-                    *sum += cells.sum(simd, spread, (plan, level.level), i);
+                    *sum += cells.sum::<S, SIDE>(simd, spread, (plan, level.level), i);
                 }
             }
         }
@@ -154,30 +171,30 @@ impl Cells {
 
     /// Notes the cells of a tap of up to [`BLOCK`] samples.
     #[inline(always)]
-    fn fill<S: Simd>(&mut self, simd: S, tap: Tap<'_>, centres: &Centres, count: usize) {
+    fn fill<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, centres: &Centres, count: usize) {
         let lanes = S::u32s::LEN;
         let last = count.saturating_sub(lanes);
-        let steps = [&tap.level.x, &tap.level.y].map(|axis| Step::new(tap, axis));
+        let (right, down) = (Step::new(tap, &tap.level.x), Step::new(tap, &tap.level.y));
         for first in (0..count).step_by(lanes) {
             let first = first.min(last);
-            let at = [0, 1].map(|axis| {
-                let centre = S::i32s::from_slice(simd, &centres[axis][first..first + lanes]);
-                steps[axis].place(simd, centre)
-            });
-            self.note(simd, tap, SampleVector { at, first });
+            let [columns, rows] = centres;
+            let x = S::i32s::from_slice(simd, &columns[first..first + lanes]);
+            let y = S::i32s::from_slice(simd, &rows[first..first + lanes]);
+            let at = [right.place(simd, x), down.place(simd, y)];
+            self.note::<S, SIDE>(simd, tap, SampleVector { at, first });
         }
     }
 
     /// Notes the cells of a vector of samples.
     #[inline(always)]
-    fn note<S: Simd>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) {
+    fn note<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) {
         let Tap {
             plan, weights, level, ..
         } = tap;
         let SampleVector { at: [x, y], first } = vector;
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
-        let (before, side) = if is_small(plan) { (0, 2) } else { (1, 4) };
+        let (before, side) = if SIDE == SMALL { (0, 2) } else { (1, 4) };
         let (left, top) = (
             (x >> FRACTION_BITS) - number(before),
             (y >> FRACTION_BITS) - number(before),
@@ -194,35 +211,54 @@ impl Cells {
         offsets.store_slice(&mut self.offsets[first..first + lanes]);
 
         let fraction = number((1 << FRACTION_BITS) - 1);
+        if SIDE == SMALL {
+            // Without its fraction a coordinate weighs its own texel alone.
+            let kept = match plan.pixel {
+                PixelSampling::Nearest => number(0),
+                _ => fraction,
+            };
+            let lower = share(simd, number(level.mass), y & kept);
+            let upper = number(level.mass) - lower;
+            let right = share(simd, upper, x & kept) | share(simd, lower, x & kept) << 16;
+            // No part of a difference is negative, so that nothing is borrowed from the upper half.
+            let left = (upper | lower << 16) - right;
+            return self.keep::<S>(0, first, in_columns::<S>(left, right));
+        }
         let columns = axis_weights(simd, weights, x & fraction);
         let rows = shares(simd, axis_weights(simd, weights, y & fraction), number(level.mass));
-        let quarters = if is_small(plan) {
-            // The middle ones.
-            &[(1, 1)][..]
-        } else {
-            &[(0, 0), (0, 2), (2, 0), (2, 2)]
-        };
-        let products = rows.map(|row| shares(simd, columns, row));
-        for (stored, (row, column)) in self.weights.iter_mut().zip(quarters) {
-            // Weights below zero are as many bits in the lower half as in the upper one.
-            let both = |column: usize| products[*row][column] & number(0xFFFF) | products[row + 1][column] << 16;
-            let [low, high] = in_columns::<S>(both(*column), both(column + 1));
-            let (first, second) = stored[first..first + lanes].split_at_mut(lanes / 2);
-            low.store_slice(first);
-            high.store_slice(second);
+        for (half, rows) in rows.as_chunks::<2>().0.iter().enumerate() {
+            let (upper, lower) = (shares(simd, columns, rows[0]), shares(simd, columns, rows[1]));
+            let [first_column, second, third, fourth] = in_pairs(simd, upper, lower);
+            self.keep::<S>(2 * half, first, in_columns::<S>(first_column, second));
+            self.keep::<S>(2 * half + 1, first, in_columns::<S>(third, fourth));
         }
+    }
+
+    /// Keeps the weights of a vector's quarters.
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, quarter: usize, first: usize, [low, high]: [S::u64s; 2]) {
+        let lanes = S::u32s::LEN;
+        let (first, second) = self.weights[quarter][first..first + lanes].split_at_mut(lanes / 2);
+        low.store_slice(first);
+        high.store_slice(second);
     }
 
     /// Red, green, blue and alpha of sample `i` in the units of the weights: even columns, then odd columns.
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, (plan, level): (&Plan<'_>, &MipLevel), i: usize) -> i32x8<S> {
+    fn sum<S: Simd, const SIDE: usize>(
+        &self,
+        simd: S,
+        spread: Spread<S>,
+        (plan, level): (&Plan<'_>, &MipLevel),
+        i: usize,
+    ) -> i32x8<S> {
         let i = i % BLOCK;
         let stride = level.stride() as usize;
         let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
-        if is_small(plan) {
+        if SIDE == SMALL {
             let rows: [u8x16<S>; 2] = if let Ok(offset) = usize::try_from(self.offsets[i]) {
                 // There is room for four.
-                let texels = &level.texels()[offset..][..stride + SIDE];
+                let texels = &level.texels()[offset..][..stride + LARGE];
                 [0, stride].map(|row| u8x16::simd_from(simd, bytes(&texels[row..])))
             } else {
                 let [upper, lower, ..] = self.beyond(plan.wrap, level, i);
@@ -231,7 +267,7 @@ impl Cells {
             return quarter(rows[0].zip_low(rows[1]), 0);
         }
         let rows: [u8x16<S>; 4] = if let Ok(offset) = usize::try_from(self.offsets[i]) {
-            let texels = &level.texels()[offset..][..3 * stride + SIDE];
+            let texels = &level.texels()[offset..][..3 * stride + LARGE];
             [0, 1, 2, 3].map(|row| u8x16::simd_from(simd, bytes(&texels[row * stride..])))
         } else {
             let rows = self.beyond(plan.wrap, level, i);
@@ -245,16 +281,10 @@ impl Cells {
     /// A block of which some texels lie beyond the level.
     #[cold]
     #[inline(never)]
-    fn beyond(&self, wrap: Wrap, level: &MipLevel, i: usize) -> [[[u8; 4]; SIDE]; SIDE] {
+    fn beyond(&self, wrap: Wrap, level: &MipLevel, i: usize) -> [[[u8; 4]; LARGE]; LARGE] {
         let [left, top] = self.corners.map(|corners| corners[i % BLOCK]);
         [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| level.wrapped(wrap, [left + x, top + y])))
     }
-}
-
-/// Whether blocks are of 2 x 2 texels.
-#[inline(always)]
-fn is_small(plan: &Plan<'_>) -> bool {
-    plan.pixel.cubic().is_none()
 }
 
 /// How far a tap lies from its samples on an axis, and what becomes of places beyond the border.
@@ -289,11 +319,7 @@ impl Step {
         let Some(endless) = &self.endless else {
             return place.max(number(self.ends[0])).min(number(self.ends[1]));
         };
-        let period = number(endless.fixed_period);
-        let place = place.simd_lt(number(0)).select(place + period, place);
-        let turned = period - number(1) - place;
-        let place = place.simd_ge(number(endless.turn)).select(turned, place);
-        place - number(endless.fixed_centre)
+        in_texture(simd, endless, place) - number(endless.fixed_centre)
     }
 }
 
@@ -301,20 +327,51 @@ impl Step {
 #[inline(always)]
 fn axis_weights<S: Simd>(simd: S, weights: &TexelWeights, fractions: S::i32s) -> [S::i32s; 3] {
     let t = S::f32s::float_from(fractions);
+    let [first, third, fourth] = weights.polynomials;
+    // No closure for all of them: it would not be inlined.
+    [
+        polynomial(simd, first, t),
+        polynomial(simd, third, t),
+        polynomial(simd, fourth, t),
+    ]
+}
+
+#[inline(always)]
+fn polynomial<S: Simd>(simd: S, [cube, square, linear, constant]: [f32; 4], t: S::f32s) -> S::i32s {
     let number = |value| S::f32s::splat(simd, value);
-    weights.polynomials.map(|[cube, square, linear, constant]| {
-        let weight = ((number(cube) * t + number(square)) * t + number(linear)) * t + number(constant);
-        let bits: S::i32s = (weight + number(WHOLE)).bitcast();
-        bits - S::i32s::splat(simd, WHOLE.to_bits().cast_signed())
-    })
+    let weight = ((number(cube) * t + number(square)) * t + number(linear)) * t + number(constant);
+    let bits: S::i32s = (weight + number(WHOLE)).bitcast();
+    bits - S::i32s::splat(simd, WHOLE.to_bits().cast_signed())
 }
 
 /// How totals are shared by four texels; see [`TexelWeights::shares`].
 #[inline(always)]
 fn shares<S: Simd>(simd: S, [first, third, fourth]: [S::i32s; 3], total: S::i32s) -> [S::i32s; 4] {
-    let share = |weight: S::i32s| (total * weight + S::i32s::splat(simd, HALF)) >> FRACTION_BITS;
-    let (first, third, fourth) = (share(first), share(third), share(fourth));
+    let (first, third, fourth) = (
+        share(simd, total, first),
+        share(simd, total, third),
+        share(simd, total, fourth),
+    );
     [first, total - first - third - fourth, third, fourth]
+}
+
+/// See `fixed_point::share`.
+#[inline(always)]
+fn share<S: Simd>(simd: S, total: S::i32s, part: S::i32s) -> S::i32s {
+    (total * part + S::i32s::splat(simd, HALF)) >> FRACTION_BITS
+}
+
+/// Weights of the same column in two rows as one number each, the upper row's in the lower half.
+#[inline(always)]
+fn in_pairs<S: Simd>(simd: S, upper: [S::i32s; 4], lower: [S::i32s; 4]) -> [S::i32s; 4] {
+    // Weights below zero are as many bits in the lower half as in the upper one.
+    let low = S::i32s::splat(simd, 0xFFFF);
+    [
+        upper[0] & low | lower[0] << 16,
+        upper[1] & low | lower[1] << 16,
+        upper[2] & low | lower[2] << 16,
+        upper[3] & low | lower[3] << 16,
+    ]
 }
 
 /// Four texels.

@@ -8,7 +8,7 @@
 //!               |~  #           #  ~|                 ~ so close to an edge that rounding might have carried it across
 //! ```
 //!
-//! `fixed_point::to_fixed` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
+//! `wrap::place` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
 //! unit: pixels with a sample so close to the edge of a texel are read again by that very function, sample by sample.
 
 #![expect(
@@ -20,11 +20,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, u8x16, u16x8, u32x4};
 use glam::DVec2;
 
+use super::PixelSampling;
 use super::bilinear::add;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
-use super::fixed_point::{FRACTION_BITS, to_fixed};
-use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
-use super::{PixelSampling, Wrap};
+use super::fixed_point::FRACTION_BITS;
+use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows, in_texture};
+use super::wrap::{self, Endless};
 
 /// Samples of a pixel that take little memory, and as many as there may be.
 pub(super) const FEW: usize = 16;
@@ -52,10 +53,11 @@ pub(super) struct NearestSamples<'a, const N: usize> {
 #[derive(Debug)]
 struct Offsets<const N: usize> {
     /// From the pixel's centre, in fixed point, and half of [`UNCERTAIN`] more: so what is uncertain lies just behind the edge
-    /// of a texel.
+    /// of a texel. On an axis that goes on for ever, brought into the period before it.
     of_samples: [i32; N],
     /// Centres that far outside the level have no sample in it, in texels.
     reach: f64,
+    endless: Option<Endless>,
 }
 
 /// Which texels the samples of a vector of pixels read.
@@ -69,17 +71,15 @@ struct Found<S: Simd, const N: usize> {
 impl<'a, const N: usize> NearestSamples<'a, N> {
     /// For a plan that reads the nearest texel of one level; `None` where it does not, or numbers are too large.
     pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
-        let is_one = plan.pixel == PixelSampling::Nearest
-            && !plan.reads_blocks()
-            && plan.coarser.is_none()
-            && plan.line.taps.count == 1;
+        let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
         if !is_one || (side * side) as usize > N {
             return None;
         }
         let offsets = |axis: &Axis| {
             let farthest = plan.first.abs() + LIST;
             let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
-            Offsets::new(axis, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
+            let endless = plan.endless(axis);
+            Offsets::new(axis, endless, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
         };
         Some(Self {
             x: offsets(&plan.finer.x)?,
@@ -91,7 +91,7 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
 }
 
 impl<const N: usize> Offsets<N> {
-    fn new(axis: &Axis, side: u32) -> Option<Self> {
+    fn new(axis: &Axis, endless: Option<Endless>, side: u32) -> Option<Self> {
         let middle = f64::from(side - 1) / 2.0;
         let reach = (axis.right.abs() + axis.down.abs()) * middle + 1.0;
         let mut of_samples = [0; N];
@@ -103,9 +103,16 @@ impl<const N: usize> Offsets<N> {
             let down = (j as f64 - middle) * axis.down;
             for (i, offset) in row.iter_mut().enumerate() {
                 *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
+                if let Some(endless) = &endless {
+                    *offset = endless.before(*offset);
+                }
             }
         }
-        reach.is_finite().then_some(Self { of_samples, reach })
+        reach.is_finite().then_some(Self {
+            of_samples,
+            reach,
+            endless,
+        })
     }
 }
 
@@ -157,13 +164,45 @@ impl<S: Simd, const N: usize> Found<S, N> {
     /// Finds the texels of up to a vector of pixels; `middle` is the centre of the pixel that lists are counted from.
     #[inline(always)]
     fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, pixels: &[[u16; 2]], middle: DVec2) {
-        let number = |value: i32| S::i32s::splat(simd, value);
         let side = S::f32s::splat(simd, samples.side as f32);
         let [columns, rows] = columns_and_rows(simd, pixels);
         let at = Positions::new(simd, [columns * side, rows * side], middle);
         let level = &samples.level;
-        let x = at.around(simd, &level.x, samples.x.reach);
-        let y = at.around(simd, &level.y, samples.y.reach);
+        if let (Some(x), Some(y)) = (&samples.x.endless, &samples.y.endless) {
+            let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];
+            self.find_around(
+                simd,
+                samples,
+                centres,
+                #[inline(always)]
+                |[column, row]| [in_texture(simd, x, column), in_texture(simd, y, row)],
+            );
+        } else {
+            let centres = [
+                at.around(simd, &level.x, samples.x.reach),
+                at.around(simd, &level.y, samples.y.reach),
+            ];
+            self.find_around(
+                simd,
+                samples,
+                centres,
+                #[inline(always)]
+                |at| at,
+            );
+        }
+    }
+
+    /// The same of pixels whose centres lie there, in fixed point; `inside` says what places of samples stand for.
+    #[inline(always)]
+    fn find_around(
+        &mut self,
+        simd: S,
+        samples: &NearestSamples<'_, N>,
+        [x, y]: [S::i32s; 2],
+        inside: impl Fn([S::i32s; 2]) -> [S::i32s; 2],
+    ) {
+        let number = |value: i32| S::i32s::splat(simd, value);
+        let level = &samples.level;
         let last = [level.level.width(), level.level.height()].map(|size| size.cast_signed() - 1);
         let last: S::i16s = number(last[0] | last[1] << 16).bitcast();
         let stride: S::i16s = number(1 | level.level.stride().cast_signed() << 16).bitcast();
@@ -177,6 +216,7 @@ impl<S: Simd, const N: usize> Found<S, N> {
             distance = distance
                 .min(x.bitcast::<S::i16s>() & fraction)
                 .min(y.bitcast::<S::i16s>() & fraction);
+            let [x, y] = inside([x, y]);
             let (column, row) = (x >> FRACTION_BITS, y >> FRACTION_BITS << 16);
             let at: S::i16s = (column & number(0xFFFF) | row).bitcast();
             let inside = at.max(S::i16s::splat(simd, 0)).min(last);
@@ -255,11 +295,11 @@ fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32
             let from_pivot = plan.first + DVec2::new(sample(pixel[0], i), sample(pixel[1], j));
             let at = |axis: &Axis| {
                 let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-                to_fixed(texels, axis.last).cast_signed()
+                wrap::place(axis.last, (plan.wrap, plan.pixel), texels, None)
             };
             add(
                 level.level,
-                (plan.pixel, Wrap::Clamp),
+                (plan.pixel, plan.wrap),
                 [at(&level.x), at(&level.y)],
                 1,
                 &mut sums,

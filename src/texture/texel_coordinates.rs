@@ -51,6 +51,17 @@ pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32
     [S::f32s::float_from(column), S::f32s::float_from(row)]
 }
 
+/// Places in fixed point from the corner of the first texel of an axis that goes on for ever, which may lie up to a period
+/// before the first one: where the same is shown in the texture itself.
+#[inline(always)]
+pub(super) fn in_texture<S: Simd>(simd: S, endless: &Endless, places: S::i32s) -> S::i32s {
+    let number = |value: i32| S::u32s::splat(simd, value.cast_unsigned());
+    let places: S::u32s = places.bitcast();
+    // Without a sign, numbers below zero are the largest.
+    let inside = places.min(places + number(endless.fixed_period));
+    inside.min(number(endless.fixed_turn) - inside).bitcast()
+}
+
 impl<S: Simd> Positions<S> {
     /// Of samples counted from one at `first`. All numbers are exact: whole ones below `2^20` and multiples of `2^-20`.
     #[inline(always)]
@@ -107,15 +118,19 @@ impl<S: Simd> Positions<S> {
     /// point; see `wrap::place`.
     #[inline(always)]
     pub(super) fn endless(&self, simd: S, axis: &Axis, endless: &Endless) -> S::i32s {
-        let half = |half: usize| -> S::i64s {
-            let number = |value| S::f64s::splat(simd, value);
-            let from_corner = self.at(simd, axis, half) + number(endless.first_centre);
-            let periods = (from_corner * number(endless.inverse)).floor();
-            let within = from_corner - periods * number(endless.period);
-            let inside = within.max(number(0.0)).min(number(endless.period));
-            (inside + number(1.5 * TO_FIXED)).bitcast()
-        };
-        half(0).narrow(half(1))
+        let half = self.endless_half(simd, axis, endless, 0);
+        half.narrow(self.endless_half(simd, axis, endless, 1))
+    }
+
+    #[inline(always)]
+    fn endless_half(&self, simd: S, axis: &Axis, endless: &Endless, half: usize) -> S::i64s {
+        let from_corner = self.at(simd, axis, half) + S::f64s::splat(simd, endless.first_centre);
+        let periods = (from_corner * S::f64s::splat(simd, endless.inverse)).floor();
+        let within = from_corner - periods * S::f64s::splat(simd, endless.period);
+        let inside = within
+            .max(S::f64s::splat(simd, 0.0))
+            .min(S::f64s::splat(simd, endless.period));
+        (inside + S::f64s::splat(simd, 1.5 * TO_FIXED)).bitcast()
     }
 
     #[inline(always)]

@@ -39,8 +39,8 @@ pub(super) struct Endless {
     /// The same in fixed point.
     pub(super) fixed_period: i32,
     pub(super) fixed_centre: i32,
-    /// From here to the end of the period it is turned round.
-    pub(super) turn: i32,
+    /// What a place and the one that shows the same add up to; -1 where nothing is turned round.
+    pub(super) fixed_turn: i32,
 }
 
 impl Wrap {
@@ -104,19 +104,25 @@ impl Endless {
             Wrap::Mirror => 2.0 * side,
         };
         let first_centre = first_centre(pixel);
+        let fixed_period = signed(period, 0.0, period);
         Some(Self {
             period,
             inverse: period.recip(),
             first_centre,
-            fixed_period: signed(period, 0.0, period),
+            fixed_period,
             fixed_centre: signed(first_centre, 0.0, 1.0),
-            turn: signed(side, 0.0, side),
+            fixed_turn: if wrap == Wrap::Mirror { fixed_period - 1 } else { -1 },
         })
     }
 
     /// What is added to a place for a tap that lies `offset` texels away: below zero, and less than a period.
     pub(super) fn offset(&self, offset: f64) -> i32 {
-        tap_offset(offset).rem_euclid(self.fixed_period) - self.fixed_period
+        self.before(tap_offset(offset))
+    }
+
+    /// The same of a distance in fixed point.
+    pub(super) fn before(&self, offset: i32) -> i32 {
+        offset.rem_euclid(self.fixed_period) - self.fixed_period
     }
 
     /// A coordinate in fixed point inside the first period.
@@ -127,8 +133,9 @@ impl Endless {
         if place < 0 {
             place += self.fixed_period;
         }
-        if place >= self.turn {
-            place = self.fixed_period - 1 - place;
+        let turned = self.fixed_turn - place;
+        if (0..place).contains(&turned) {
+            place = turned;
         }
         place - self.fixed_centre
     }

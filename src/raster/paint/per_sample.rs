@@ -287,8 +287,9 @@ impl<'a> PerSamplePainter<'a> {
         // No tile has more than `2^14` points of a lattice along a side.
         let inside = |pixels: i32| u16::try_from(pixels * side).unwrap_or(u16::MAX);
         let top = inside(y - rect.y.start);
+        // A place inside a pixel is less than 256: nothing here overflows.
         let point =
-            |left: u16, [column, row]: Position| [left.saturating_add(column.into()), top.saturating_add(row.into())];
+            |left: u16, [column, row]: Position| [left.wrapping_add(column.into()), top.wrapping_add(row.into())];
         match covered {
             Covered::Whole(xs) => {
                 let end = if is_level && self.positions.are_same() {

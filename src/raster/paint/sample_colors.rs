@@ -188,6 +188,24 @@ impl SampleColors {
             paint(&mut self.whole[first..last], shaded, rules);
         } else {
             paint(self.split_pixels(first..last, shaded.opaque), shaded, rules);
+            if shaded.opaque && self.space == ResolveSpace::Stored {
+                self.join(first..last);
+            }
+        }
+    }
+
+    /// Gives split pixels one colour again where all their samples show the same, as inside a magnified texel.
+    fn join(&mut self, pixels: Range<usize>) {
+        let samples = &self.samples[pixels.start * self.per_pixel..pixels.end * self.per_pixel];
+        let pixels = self.whole[pixels.clone()].iter_mut().zip(&mut self.split[pixels]);
+        for ((whole, split), samples) in pixels.zip(samples.chunks_exact(self.per_pixel)) {
+            // Most of those that differ do so at the ends.
+            if let [first, .., last] = samples
+                && first == last
+                && samples.iter().all(|sample| sample == first)
+            {
+                (*whole, *split) = (*first, false);
+            }
         }
     }
 

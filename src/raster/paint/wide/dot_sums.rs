@@ -164,11 +164,12 @@ impl DotSums {
                 for x in pixels {
                     match colors.pixel(y * colors.width() + x) {
                         PixelColors::Whole(color) => {
-                            let [r, g, b, a] = moved(color);
-                            let pair = [r, r, g, g, b, b, a, a];
+                            let pair = i16x8::simd_from(simd, side_by_side(simd, moved(color), moved(color)));
                             for row in 0..self.side {
                                 let found = &mut self.samples[row * self.stride + x * numbers..][..numbers];
-                                found.as_chunks_mut().0.fill(pair);
+                                for found in found.as_chunks_mut::<PAIR>().0 {
+                                    pair.store_slice(found);
+                                }
                             }
                         }
                         PixelColors::Split(samples) => {

@@ -9,9 +9,10 @@
 //!      o   o   o   o        below zero times below zero
 //! ```
 //!
-//! First the weights of many samples are found, in vectors of samples; then their texels are added, in vectors of channels,
-//! two rows and two columns at a time as `sample_filter` does. Each number is that of `bilinear::each`, whatever the
-//! vectors' width. Blocks that reach beyond the level are put together texel by texel, by what stands there.
+//! Samples that mostly share their blocks go to `shared_blocks`. Of the others the weights are found first, in vectors of
+//! samples; then their texels are added, in vectors of channels, two rows and two columns at a time as `sample_filter` does.
+//! Each number is that of `bilinear::each`, whatever the vectors' width. Blocks that reach beyond the level are put together
+//! by what stands there.
 //!
 //! Some weights are below zero, so that a sum may be no colour. It is clamped once, when everything that a sample reads is in
 //! it: alpha to what there can be, then each premultiplied channel to alpha. So a texel that shines through never becomes

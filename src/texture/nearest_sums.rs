@@ -8,6 +8,9 @@
 //!               |~  #           #  ~|                 ~ so close to an edge that rounding might have carried it across
 //! ```
 //!
+//! Where a texture is repeated or mirrored, the centre is brought into the first period and the samples' distances into the one
+//! before it: so their sum is less than a period outside of the first one.
+//!
 //! `wrap::place` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
 //! unit: pixels with a sample so close to the edge of a texel are read again by that very function, sample by sample.
 

@@ -208,3 +208,62 @@ impl Texels {
         sum
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::super::{
+        Filter, MipLevel, MipPyramid, PixelSampling, SampleGrid, SamplingSettings, UvMap, Wrap, oracle,
+    };
+    use super::*;
+    use crate::color::Premultiplied16;
+    use crate::simd;
+
+    #[test]
+    fn magnified_textures_are_read_as_sample_by_sample() {
+        let texel = |i: u8| {
+            let alpha = if i.is_multiple_of(4) { 130 } else { 255 };
+            [(i * 7).min(alpha), i * 3, 90, alpha]
+        };
+        let pyramid = MipPyramid::build(MipLevel::new(5, 7, (0..5 * 7).map(texel).collect()));
+        let grid = SampleGrid {
+            side: 4,
+            origin: [-2, 1],
+        };
+        // From inside to far beyond the border.
+        let points: Vec<[u16; 2]> = (0..300).map(|i| [i * 13 % 256, i * 29 % 256]).collect();
+        for (pixel, wrap) in PixelSampling::ALL
+            .into_iter()
+            .flat_map(|pixel| Wrap::ALL.map(|wrap| (pixel, wrap)))
+        {
+            let settings = SamplingSettings {
+                pixel,
+                wrap,
+                ..SamplingSettings::default()
+            };
+            let map = |texels: f64| UvMap {
+                pivot: DVec2::new(3.25, 4.5),
+                uv: DVec2::new(0.1, 0.7),
+                dx: DVec2::new(0.2, 0.1) * texels,
+                dy: DVec2::new(-0.1, 0.15) * texels,
+            };
+            assert!(
+                !are_few(&Filter::new(&pyramid, &map(4.0), &settings).plan(grid)),
+                "{settings:?}"
+            );
+            let filter = Filter::new(&pyramid, &map(0.25), &settings);
+            let plan = filter.plan(grid);
+            assert!(are_few(&plan), "{settings:?}");
+            let expected: Vec<_> = points
+                .iter()
+                .map(|at| oracle::point(&plan, at.map(u32::from)))
+                .collect();
+            for (name, level) in simd::tested() {
+                let mut found = vec![Premultiplied16::TRANSPARENT; points.len()];
+                filter.points(level, grid, &points, &mut found);
+                assert_eq!(found, expected, "{name}: {settings:?}");
+            }
+        }
+    }
+}

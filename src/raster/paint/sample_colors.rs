@@ -559,6 +559,45 @@ mod tests {
     }
 
     #[test]
+    fn opaque_pixels_are_split_only_where_their_samples_differ() {
+        let gray = |level: u8| Premultiplied16::from_bytes([level, level, level, 255]);
+        let xs = Span { start: 1, end: 4 };
+        let y = Span { start: 0, end: 1 };
+        let colors: Vec<_> = [[7, 7, 7, 7], [7, 8, 8, 7], [8, 8, 8, 8]]
+            .concat()
+            .into_iter()
+            .map(gray)
+            .collect();
+        for opaque in [false, true] {
+            let mut tile = SampleColors::new(
+                SampleRate::new(4).expect("a rate"),
+                Rules::Standard,
+                ResolveSpace::Stored,
+            );
+            tile.reset(
+                SpanRect {
+                    x: Span { start: 0, end: 5 },
+                    y,
+                },
+                gray(0),
+            );
+            tile.write(
+                xs,
+                0,
+                ShadedColors {
+                    colors: &colors,
+                    opaque,
+                },
+            );
+            let shown = (1..4).flat_map(|x| (0..COUNT).map(move |sample| (x, sample)));
+            let shown: Vec<_> = shown.map(|(x, sample)| tile.sample(x, 0, sample)).collect();
+            assert_eq!(shown, colors, "each sample keeps its colour, opaque: {opaque}");
+            let (_, split) = tile.row(0);
+            assert_eq!(split, [false, !opaque, true, !opaque, false], "opaque: {opaque}");
+        }
+    }
+
+    #[test]
     fn layers_are_composited_as_each_sample_alone() {
         let rect = SpanRect {
             x: Span { start: 0, end: SIDE },

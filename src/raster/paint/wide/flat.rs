@@ -247,7 +247,8 @@ mod tests {
                     end: u.int_in_range(start + 1..=x.end)?,
                 };
                 let color = gray(u.int_in_range(0..=1)?);
-                let split = vec![color; 4 * pixels.length()];
+                let mut split = vec![color; 4 * pixels.length()];
+                split.iter_mut().step_by(4).for_each(|first| *first = gray(2));
                 let rows = u.int_in_range(0..=y.end - 1)?..=y.end - 1;
                 for row in rows {
                     if u.ratio(1, 8)? {

@@ -1,5 +1,7 @@
 //! Finding out why a pixel has its colour.
 
+use std::collections::HashMap;
+
 use glam::DVec2;
 
 use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
@@ -75,6 +77,7 @@ impl Explanation {
             .zip(&seen)
             .map(|((op, piece), seen)| question.paint(op, piece, seen, sources))
             .collect();
+        measure(&mut paints, &replay.painted, &explainer);
         mark_masks(&mut paints);
         let smoothing = smoothing(&subject, size, pixel);
         let [a, r, g, b] = replay.pixel.to_be_bytes();
@@ -120,6 +123,16 @@ impl Explanation {
     }
 }
 
+/// Finds how much of the pixel each paint's primitive covers: once for all pieces of one.
+fn measure(paints: &mut [Paint], painted: &[PaintedCommand], explainer: &Explainer<'_>) {
+    let mut known: HashMap<u32, Option<f64>> = HashMap::new();
+    for (paint, op) in paints.iter_mut().zip(painted) {
+        if op.kind == PaintedKind::Primitive {
+            paint.area = *known.entry(op.source).or_insert_with(|| explainer.area(op.source));
+        }
+    }
+}
+
 /// The geometry of a paint.
 struct Shaped {
     shape: Shape,
@@ -149,9 +162,7 @@ impl Question<'_> {
         let source = self.source(op.source, sources.quotes);
         let Shaped { shape, views, texture } = self.shape(op, source.is_none(), piece);
         Paint {
-            area: (op.kind == PaintedKind::Primitive)
-                .then(|| sources.explainer.area(op.source))
-                .flatten(),
+            area: None,
             shape,
             source,
             primitive: op.source,

@@ -126,6 +126,7 @@ fn panel_name(number: usize, words: &str) -> String {
     };
     let words: String = words
         .replace(", ", "_")
+        .replace(['(', ')'], "")
         .chars()
         .map(|c| if c == '_' { c } else { plain(c) })
         .take(120)

@@ -103,8 +103,9 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
     }
     let others = picture::all().filter(|setting| setting.told == Told::IfChanged && setting.about == About::Samples);
     for setting in others {
-        // The pattern stands beside the number of samples.
-        if setting.option != "pattern" && !setting.is_default(viewer.settings()) {
+        // The pattern stands beside the number of samples, and in place of both stands that areas are exact.
+        let is_told = setting.option == "pattern" || (setting.option == "coverage" && render.covers_areas());
+        if !is_told && !setting.is_default(viewer.settings()) {
             lines.push(format!("{}: {}", setting.label, setting.shown(viewer.settings())));
         }
     }

@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 15] = [
+const CASES: [Case; 17] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -69,6 +69,20 @@ const CASES: [Case; 15] = [
         scale: 1.0,
         theme: Theme::Dark,
         steps: "rate 16; pin 585,178; magnification 16; panel off; move 120,339",
+    },
+    Case {
+        name: "overlay_explanation_exact",
+        size: [900, 900],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "coverage exact; pin 585,178; magnification 16; panel off",
+    },
+    Case {
+        name: "overlay_explanation_smaa",
+        size: [900, 900],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "post-process smaa; pin 585,178; magnification 16; panel off",
     },
     Case {
         name: "overlay_explanation_light_2x",

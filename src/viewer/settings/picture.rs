@@ -75,7 +75,7 @@ pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, Strin
     text.split(',').map(one).collect()
 }
 
-/// A text for [`changes`] with what lies in files in place of their names, from `folder` where a name is not
+/// A text for `changes` with what lies in files in place of their names, from `folder` where a name is not
 /// absolute. Only what a user typed or opened comes here.
 ///
 /// # Errors
@@ -92,7 +92,7 @@ pub fn read_files(text: &str, folder: Option<&Path>) -> Result<String, String> {
     Ok(parts?.join(","))
 }
 
-/// What [`changes`] finds; `None` where one of them is none.
+/// What `changes` finds; `None` where one of them is none.
 pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>> {
     changes(text).ok()
 }

@@ -5,11 +5,11 @@
 use glam::DVec2;
 
 use super::box_means::BoxFilter;
-use super::ewa_filter::{EwaFilter, RowTexels};
+use super::ewa_filter::EwaFilter;
 use super::filter_plan::Plan;
 use super::fixed_point::MASS;
 use super::pyramid::NumberedLevel;
-use super::sample_places::{LANES, PixelPlaces, Places};
+use super::sample_places::{LANES, Places};
 use super::{Area, Filter, LevelChoice, MipLevel, PixelList, PixelSampling, Reading, Ripmap};
 use super::{SampleGrid, SamplingSettings, Taps, Texture, UvMap, bilinear};
 use crate::color::Premultiplied16;
@@ -61,7 +61,7 @@ impl<'a> AreaFilter<'a> {
                 filter: EwaFilter {
                     level: &levels[ellipse.level],
                     wrap: settings.wrap,
-                    ellipse,
+                    quadratic: ellipse.quadratic(),
                     is_opaque: pyramid.is_opaque(),
                 },
             },
@@ -98,7 +98,6 @@ impl<'a> AreaFilter<'a> {
             }
             Kind::Ewa { place, filter } => {
                 let plan = place.plan(grid);
-                let mut row = RowTexels::new();
                 let side = u16::try_from(grid.side).unwrap_or(1).max(1);
                 let pixel = |point: &[u16; 2]| point.map(|at| at / side);
                 let mut rest = out;
@@ -107,7 +106,7 @@ impl<'a> AreaFilter<'a> {
                     rest = others;
                     for (points, colors) in samples.chunks(LANES).zip(colors.chunks_mut(LANES)) {
                         let places = Places::of_points(&plan, points);
-                        filter.colors(simd, &places, &mut row, colors);
+                        filter.colors(simd, &places, colors);
                     }
                 }
             }
@@ -132,35 +131,20 @@ impl<'a> AreaFilter<'a> {
 
     /// As [`Filter::sums`].
     pub fn sums(&self, simd: Level, grid: SampleGrid, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
-        if let Kind::Ripmap { upper, lower } = &self.0 {
-            upper.sums(simd, grid, list, sums);
-            if let Some((lower, mass)) = lower {
-                let mut others = vec![[0; 4]; sums.len()];
-                lower.sums(simd, grid, list, &mut others);
-                for (sum, other) in sums.iter_mut().zip(others) {
-                    *sum = std::array::from_fn(|i| mixed_sum(sum[i], other[i], *mass));
+        match &self.0 {
+            Kind::Ewa { place, filter } => filter.sums(simd, (&place.plan(grid), grid.side), list, sums),
+            Kind::Summed { place, read } if read.filter.is_bilinear() => place.sums(simd, grid, list, sums),
+            Kind::Summed { place, read } => read.filter.sums(simd, (&place.plan(grid), grid.side), list, sums),
+            Kind::Ripmap { upper, lower } => {
+                upper.sums(simd, grid, list, sums);
+                if let Some((lower, mass)) = lower {
+                    let mut others = vec![[0; 4]; sums.len()];
+                    lower.sums(simd, grid, list, &mut others);
+                    for (sum, other) in sums.iter_mut().zip(others) {
+                        *sum = std::array::from_fn(|i| mixed_sum(sum[i], other[i], *mass));
+                    }
                 }
             }
-            return;
-        }
-        let (Kind::Ewa { place, .. } | Kind::Summed { place, .. } | Kind::Ripmap { upper: place, .. }) = &self.0;
-        if let Kind::Summed { read, .. } = &self.0
-            && read.filter.is_bilinear()
-        {
-            return place.sums(simd, grid, list, sums);
-        }
-        let plan = place.plan(grid);
-        let samples = PixelPlaces::new(grid.side);
-        let mut row = RowTexels::new();
-        for (i, (pixel, sum)) in list.pixels.iter().zip(sums).enumerate() {
-            *sum = [0; 4];
-            samples.each(&plan, *pixel, list.masks.map(|masks| masks[i]), |places| {
-                match &self.0 {
-                    Kind::Ewa { filter, .. } => filter.add(simd, places, &mut row, sum),
-                    Kind::Summed { read, .. } => read.filter.add(simd, places, sum),
-                    Kind::Ripmap { .. } => {}
-                }
-            });
         }
     }
 }

@@ -16,7 +16,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, i32x8, u32x8};
 
-use super::sample_places::{LANES, Places, whole, whole_sum};
+use super::filter_plan::{PixelList, Plan};
+use super::sample_places::{LANES, PixelPlaces, Places, whole, whole_sum};
 use super::summed_area::SummedAreaTable;
 use super::{TexelBox, Wrap};
 use crate::color::Premultiplied16;
@@ -68,21 +69,34 @@ impl BoxFilter<'_> {
         out
     }
 
-    /// Adds those colours to `sums`.
-    pub(super) fn add(&self, simd: Level, places: &Places, sums: &mut [u32; 4]) {
-        let mut add = |color: Premultiplied16| {
-            for (sum, channel) in sums.iter_mut().zip(color.0) {
+    /// The sums of the colours of pixels' samples; see [`super::Filter::sums`].
+    pub(super) fn sums(
+        &self,
+        simd: Level,
+        (plan, side): (&Plan<'_>, u32),
+        list: PixelList<'_>,
+        sums: &mut [[u32; 4]],
+    ) {
+        let samples = PixelPlaces::new(side);
+        let add = |color: Premultiplied16, sum: &mut [u32; 4]| {
+            for (sum, channel) in sum.iter_mut().zip(color.0) {
                 *sum += u32::from(channel);
             }
         };
-        if let Some(numbers) = self.table.of_bytes() {
-            let all = dispatch!(simd, simd => total(simd, self, numbers, places, &mut add));
-            for (sum, all) in sums.iter_mut().zip(all) {
-                *sum += whole_sum(all);
-            }
-        } else {
-            (0..places.count).for_each(|lane| add(self.anywhere(places, lane)));
-        }
+        let Some(numbers) = self.table.of_bytes() else {
+            return samples.each_of(plan, list, sums, |places, sum| {
+                (0..places.count).for_each(|lane| add(self.anywhere(places, lane), sum));
+            });
+        };
+        dispatch!(simd, simd => simd.vectorize(
+            #[inline(always)]
+            || samples.each_of(plan, list, sums, |places, sum| {
+                let all = total(simd, self, numbers, places, |color| add(color, sum));
+                for (sum, all) in sum.iter_mut().zip(all) {
+                    *sum += whole_sum(all);
+                }
+            }),
+        ));
     }
 
     /// The colour at a place whose box may lie across a border.

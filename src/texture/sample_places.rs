@@ -1,8 +1,13 @@
 //! Where the samples of pixels lie in a level, in 64-bit floats: for filters that weigh areas, up to sixteen at a time.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use glam::DVec2;
 
-use super::filter_plan::{Axis, Plan};
+use super::filter_plan::{Axis, PixelList, Plan};
 
 /// Samples that are read together.
 pub(super) const LANES: usize = 16;
@@ -25,7 +30,7 @@ pub(super) struct PixelPlaces {
 
 impl Places {
     /// Of samples in these columns and rows, counted from the first one of the plan's grid.
-    #[inline]
+    #[inline(always)]
     fn new(plan: &Plan<'_>, columns: &[f64; LANES], rows: &[f64; LANES], count: usize) -> Self {
         let place = |axis: &Axis| {
             let mut found = [0.0; LANES];
@@ -91,9 +96,24 @@ impl PixelPlaces {
         }
     }
 
+    /// Sums over the samples of pixels: calls `add` with some that take part, and with what to add to.
+    #[inline(always)]
+    pub(super) fn each_of(
+        &self,
+        plan: &Plan<'_>,
+        list: PixelList<'_>,
+        sums: &mut [[u32; 4]],
+        mut add: impl FnMut(&Places, &mut [u32; 4]),
+    ) {
+        for (i, (pixel, sum)) in list.pixels.iter().zip(sums).enumerate() {
+            *sum = [0; 4];
+            self.each(plan, *pixel, list.masks.map(|masks| masks[i]), |places| add(places, sum));
+        }
+    }
+
     /// Calls `visit` with the samples of a pixel that take part, in the order of their numbers.
-    #[inline]
-    pub(super) fn each(&self, plan: &Plan<'_>, pixel: [u16; 2], mask: Option<u64>, mut visit: impl FnMut(&Places)) {
+    #[inline(always)]
+    fn each(&self, plan: &Plan<'_>, pixel: [u16; 2], mask: Option<u64>, mut visit: impl FnMut(&Places)) {
         let [left, top] = pixel.map(|at| f64::from(u32::from(at) * self.side));
         for (i, (columns, rows, count)) in self.samples.iter().enumerate() {
             let (mut columns, mut rows, mut count) = (*columns, *rows, *count);

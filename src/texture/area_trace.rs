@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use super::area_filter::{AreaFilter, Kind, Summed, at};
+use super::area_filter::{AreaFilter, Kind, at};
 use super::box_means::BoxFilter;
 use super::ewa_filter::EwaFilter;
-use super::fixed_point::MASS;
+use super::ripmap_filter::ReadSamples;
+use super::texel_blocks::EndlessLevel;
 use super::{SampleGrid, TapRead, TexelRead, TextureReads};
 
 impl AreaFilter<'_> {
@@ -17,53 +18,44 @@ impl AreaFilter<'_> {
                 let plan = place.plan(grid);
                 filter.reads(plan.finer.number, at(&plan, point))
             }
-            Kind::Summed { place, read } => read.reads(at(&place.plan(grid), point)),
-            Kind::Ripmap { upper, lower } => {
-                let mut reads = upper.reads(grid, point);
-                if let Some((lower, mass)) = lower {
-                    let part = f64::from(*mass) / f64::from(MASS);
-                    let mut others = lower.reads(grid, point);
-                    reads.texels.iter_mut().for_each(|texel| texel.weight *= 1.0 - part);
-                    others.texels.iter_mut().for_each(|texel| texel.weight *= part);
-                    reads.texels.extend(others.texels);
-                    reads.taps.extend(others.taps);
-                }
-                reads
-            }
+            Kind::Summed { place, filter, .. } => filter.reads(at(&place.plan(grid), point)),
+            Kind::Ripmap(filter) => filter.reads(grid, point),
         }
     }
 }
 
 impl EwaFilter<'_> {
     fn reads(&self, level: usize, at: DVec2) -> TextureReads {
-        let mut texels = Vec::new();
+        let EndlessLevel { level: texels, wrap } = self.texels;
+        let mut found = Vec::new();
         self.each(at, |[x, y], weight| {
-            let inside = |at: i32, side: u32| self.wrap.texel(at, side).cast_unsigned();
-            texels.push(TexelRead {
+            let inside = |at: i32, side: u32| wrap.texel(at, side).cast_unsigned();
+            found.push(TexelRead {
                 level,
-                at: [inside(x, self.level.width()), inside(y, self.level.height())],
-                color: self.level.wrapped(self.wrap, [x, y]),
+                at: [inside(x, texels.width()), inside(y, texels.height())],
+                color: texels.wrapped(wrap, [x, y]),
                 weight,
             });
         });
         let reads = TextureReads {
-            texels,
+            texels: found,
             taps: vec![TapRead { level, at: at + 0.5 }],
-            wrap: self.wrap,
+            wrap,
             summed: None,
         };
         reads.once()
     }
 }
 
-impl Summed<'_> {
+impl BoxFilter<'_> {
     fn reads(&self, at: DVec2) -> TextureReads {
         let at = at + 0.5;
-        let BoxFilter { table, area, wrap } = self.filter;
+        let Self { table, texels, area } = *self;
+        let EndlessLevel { level: base, wrap } = texels;
         let texel = |(place, weight): ([u32; 2], f64)| TexelRead {
             level: area.level,
             at: place,
-            color: self.base.texel(place[0].cast_signed(), place[1].cast_signed()),
+            color: base.texel(place[0].cast_signed(), place[1].cast_signed()),
             weight,
         };
         let found = table.texels(at, &area, wrap).unwrap_or_default();

@@ -15,40 +15,57 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, i32x8, u32x8};
+use glam::DVec2;
 
+use super::few_texels::FewTexels;
 use super::filter_plan::{PixelList, Plan};
+use super::fixed_point::REACH;
 use super::sample_places::{LANES, PixelPlaces, Places, whole, whole_sum};
 use super::summed_area::SummedAreaTable;
-use super::{TexelBox, Wrap};
+use super::texel_blocks::EndlessLevel;
+use super::{TexelBox, UvMap, Wrap};
 use crate::color::Premultiplied16;
 
 /// Adding this to a 32-bit float that is smaller rounds it to a whole number.
 const ROUNDING: f32 = 8_388_608.0;
 
-/// A table read by a box.
+/// A level read by a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxFilter<'a> {
     pub(super) table: &'a SummedAreaTable,
+    /// What was summed.
+    pub(super) texels: EndlessLevel<'a>,
     pub(super) area: TexelBox,
-    pub(super) wrap: Wrap,
 }
 
 /// Where the two borders of boxes lie between the table's columns, or rows.
 struct Borders {
-    /// The last ones before them.
+    /// The last ones before them. Beyond the level, where its outermost texels go on, sums go on as in them.
     at: [[u32; LANES]; 2],
-    /// What to weigh the sums by: from the last one before the left border to the last one before the right border, from the
-    /// next ones to the next, and from the last one before the left border to the next.
-    parts: [[f32; LANES]; 3],
-    /// Whether the box lies inside the level.
+    /// What to weigh sums by, besides those from the last one before the left border to the last one before the right border:
+    /// how much more there is from the next ones to the next, and from the last one before the left border to the next.
+    parts: [[f32; LANES]; 2],
+    /// Whether that is what the box holds.
     is_inside: [bool; LANES],
 }
 
-impl BoxFilter<'_> {
+impl<'a> BoxFilter<'a> {
+    /// What reads the texels themselves, where the samples of a pixel have few enough of them below.
+    pub(super) fn few_texels(&self, map: &UvMap, is_opaque: bool) -> Option<FewTexels<'a>> {
+        let size = DVec2::from(self.table.size().map(f64::from));
+        let pixel = (map.dx.abs() + map.dy.abs()) * size;
+        let is_quicker = self.table.of_bytes().is_some() && FewTexels::are_enough(self.area.sides, pixel);
+        is_quicker.then_some(FewTexels {
+            texels: self.texels,
+            sides: self.area.sides,
+            is_opaque,
+        })
+    }
+
     /// Whether a box is one texel of bytes: its mean mixes the four texels around its middle, as [`super::PixelSampling::Bilinear`]
     /// does.
     pub(super) fn is_bilinear(&self) -> bool {
-        self.area.sides == glam::DVec2::ONE && self.table.of_bytes().is_some()
+        self.area.sides == DVec2::ONE && self.table.of_bytes().is_some()
     }
 
     /// The colours at some places; those of the lanes that repeat the first are any.
@@ -70,13 +87,7 @@ impl BoxFilter<'_> {
     }
 
     /// The sums of the colours of pixels' samples; see [`super::Filter::sums`].
-    pub(super) fn sums(
-        &self,
-        simd: Level,
-        (plan, side): (&Plan<'_>, u32),
-        list: PixelList<'_>,
-        sums: &mut [[u32; 4]],
-    ) {
+    pub(super) fn sums(&self, simd: Level, (plan, side): (&Plan<'_>, u32), list: PixelList<'_>, sums: &mut [[u32; 4]]) {
         let samples = PixelPlaces::new(side);
         let add = |color: Premultiplied16, sum: &mut [u32; 4]| {
             for (sum, channel) in sum.iter_mut().zip(color.0) {
@@ -102,32 +113,43 @@ impl BoxFilter<'_> {
     /// The colour at a place whose box may lie across a border.
     #[inline(never)]
     fn anywhere(&self, places: &Places, lane: usize) -> Premultiplied16 {
-        self.table.mean(places.at(lane) + 0.5, &self.area, self.wrap)
+        self.table.mean(places.at(lane) + 0.5, &self.area, self.texels.wrap)
     }
 }
 
 impl Borders {
     /// On an axis of so many texels, of boxes that are twice `half` long about these places.
     #[inline(always)]
-    fn new(side: u32, at: &[f64; LANES], half: f64) -> Self {
+    fn new(wrap: Wrap, side: u32, at: &[f64; LANES], half: f64) -> Self {
         /// Adding this to a number rounds it to a whole one, which stands in the lowest bits.
         const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
         let last = f64::from(side - 1);
+        let side = f64::from(side);
         let mut found = Self {
             at: [[0; LANES]; 2],
-            parts: [[0.0; LANES]; 3],
-            is_inside: [false; LANES],
+            parts: [[0.0; LANES]; 2],
+            is_inside: [true; LANES],
         };
         for (i, at) in at.iter().enumerate() {
-            let middle = at + 0.5;
+            let middle = match wrap {
+                // Farther away there is nothing but the border.
+                Wrap::Clamp => (at + 0.5).max(-half).min(side + half),
+                Wrap::Repeat => at + 0.5 - ((at + 0.5) / side).floor() * side,
+                Wrap::Mirror => {
+                    let in_both = at + 0.5 - ((at + 0.5) / (2.0 * side)).floor() * (2.0 * side);
+                    in_both.min(2.0 * side - in_both)
+                }
+            };
             let (from, to) = (middle - half, middle + half);
-            found.is_inside[i] = from >= 0.0 && to <= f64::from(side);
+            if wrap != Wrap::Clamp {
+                found.is_inside[i] = from >= 0.0 && to <= side;
+            }
             // A border on a column of corners may as well be the end of one texel as the start of the next.
             let before = |border: f64| (border - 0.5).max(0.0).min(last) + WHOLE;
             let [first, second] = [before(from), before(to)];
             let [f0, f1] = [narrow(from - (first - WHOLE)), narrow(to - (second - WHOLE))];
             (found.at[0][i], found.at[1][i]) = (lowest(first), lowest(second));
-            (found.parts[0][i], found.parts[1][i], found.parts[2][i]) = (1.0 - f1, f1, f1 - f0);
+            (found.parts[0][i], found.parts[1][i]) = (f1, f1 - f0);
         }
         found
     }
@@ -164,12 +186,13 @@ fn each_mean<S: Simd>(
         || {
             let [width, height] = filter.table.size();
             let stride = width as usize + 1;
-            let half = filter.area.sides * 0.5;
+            let half = (filter.area.sides * 0.5).min(DVec2::splat(REACH));
+            let wrap = filter.texels.wrap;
             let [x, y] = [
-                Borders::new(width, &places.x, half.x),
-                Borders::new(height, &places.y, half.y),
+                Borders::new(wrap, width, &places.x, half.x),
+                Borders::new(wrap, height, &places.y, half.y),
             ];
-            let per_texel = narrow(f64::from(Premultiplied16::PER_BYTE) / filter.area.sides.element_product());
+            let per_texel = narrow(f64::from(Premultiplied16::PER_BYTE) / (half * 2.0).element_product());
             for lane in 0..places.count.min(LANES) {
                 if !(x.is_inside[lane] && y.is_inside[lane]) {
                     visit(lane, None);
@@ -179,17 +202,19 @@ fn each_mean<S: Simd>(
                 let (top, bottom) = (y.at[0][lane] as usize * stride, y.at[1][lane] as usize * stride);
                 let left = strips(simd, sums, stride, [top + left, bottom + left]);
                 let right = strips(simd, sums, stride, [top + right, bottom + right]);
+                let weights = [1.0, y.parts[0][lane], y.parts[1][lane]];
                 let mut wide = f32x8::splat(simd, 0.0);
                 let mut narrow = f32x4::splat(simd, 0.0);
                 for i in 0..3 {
-                    let signed: i32x8<S> = (right[i] - left[i]).bitcast();
-                    wide += signed.to_float::<f32x8<S>>() * y.parts[i][lane];
+                    let (before, after) = (right[i] - left[i]).split();
+                    let signed: i32x8<S> = before.combine(after - before).bitcast();
+                    wide += signed.to_float::<f32x8<S>>() * weights[i];
                     let (before, after) = left[i].split();
                     let signed: i32x4<S> = (after - before).bitcast();
-                    narrow += signed.to_float::<f32x4<S>>() * y.parts[i][lane];
+                    narrow += signed.to_float::<f32x4<S>>() * weights[i];
                 }
-                let (before, after) = wide.split();
-                let sum = before * x.parts[0][lane] + after * x.parts[1][lane] + narrow * x.parts[2][lane];
+                let (all, more) = wide.split();
+                let sum = all + more * x.parts[0][lane] + narrow * x.parts[1][lane];
                 visit(lane, Some(sum * per_texel + ROUNDING - ROUNDING));
             }
         },
@@ -208,7 +233,7 @@ fn two<S: Simd>(simd: S, sums: &[[u32; 4]], at: usize) -> u32x8<S> {
 fn strips<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, [above, below]: [usize; 2]) -> [u32x8<S>; 3] {
     let (first, second) = (two(simd, sums, above), two(simd, sums, above + stride));
     let (third, fourth) = (two(simd, sums, below), two(simd, sums, below + stride));
-    [third - first, fourth - second, second - first]
+    [third - first, (fourth - third) - (second - first), second - first]
 }
 
 /// The whole number in the lowest bits.

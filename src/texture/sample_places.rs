@@ -5,9 +5,14 @@
     reason = "a function that is not inlined into its dispatch loses the vector instructions"
 )]
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x16};
 use glam::DVec2;
 
+use super::Wrap;
 use super::filter_plan::{Axis, PixelList, Plan};
+use super::fixed_point::REACH;
+use crate::color::Premultiplied16;
 
 /// Samples that are read together.
 pub(super) const LANES: usize = 16;
@@ -74,6 +79,26 @@ impl Places {
         }
     }
 
+    /// The same near a level of this size, where what is repeated is the same. Places are finite, see [`super::Filter`].
+    #[inline(always)]
+    pub(super) fn near(&self, wrap: Wrap, size: [u32; 2]) -> [[f64; LANES]; 2] {
+        let mut found = [self.x, self.y];
+        for (lanes, side) in found.iter_mut().zip(size.map(f64::from)) {
+            for at in lanes {
+                *at = match wrap {
+                    Wrap::Clamp => at.max(-REACH).min(side + REACH),
+                    // Two copies, of which the second one may be turned round. Far away there is a lattice of numbers that is
+                    // coarser than texels.
+                    Wrap::Repeat | Wrap::Mirror => {
+                        let period = 2.0 * side;
+                        (*at - (*at / period).floor() * period).max(0.0).min(period)
+                    }
+                };
+            }
+        }
+        found
+    }
+
     pub(super) fn at(&self, lane: usize) -> DVec2 {
         DVec2::new(self.x[lane % LANES], self.y[lane % LANES])
     }
@@ -107,7 +132,9 @@ impl PixelPlaces {
     ) {
         for (i, (pixel, sum)) in list.pixels.iter().zip(sums).enumerate() {
             *sum = [0; 4];
-            self.each(plan, *pixel, list.masks.map(|masks| masks[i]), |places| add(places, sum));
+            self.each(plan, *pixel, list.masks.map(|masks| masks[i]), |places| {
+                add(places, sum);
+            });
         }
     }
 
@@ -141,6 +168,66 @@ impl PixelPlaces {
             }
             visit(&Places::new(plan, &columns, &rows, count));
         }
+    }
+}
+
+/// What finds the colours of sixteen samples at a time.
+pub(super) trait WeighSamples {
+    /// The channels of the colours at some places, as whole numbers; `None` where they lie too far apart to be looked at together,
+    /// which one alone does not.
+    fn channels<S: Simd>(&self, simd: S, places: &Places) -> Option<[f32x16<S>; 4]>;
+
+    /// The colours at some places.
+    #[inline(always)]
+    fn colors<S: Simd>(&self, simd: S, places: &Places, out: &mut [Premultiplied16]) {
+        let color =
+            |channels: &[[f32; LANES]; 4], lane: usize| Premultiplied16([0, 1, 2, 3].map(|i| whole(channels[i][lane])));
+        if let Some(channels) = self.channels(simd, places) {
+            let channels = channels.map(Into::into);
+            for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+                *out = color(&channels, lane);
+            }
+            return;
+        }
+        for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+            if let Some(channels) = self.channels(simd, &places.alone(lane)) {
+                *out = color(&channels.map(Into::into), 0);
+            }
+        }
+    }
+
+    /// The sums of the colours of pixels' samples; see [`super::Filter::sums`].
+    #[inline(always)]
+    fn sums<S: Simd>(&self, simd: S, (plan, side): (&Plan<'_>, u32), list: PixelList<'_>, sums: &mut [[u32; 4]]) {
+        let samples = PixelPlaces::new(side);
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                samples.each_of(plan, list, sums, |places, sum| {
+                    if let Some(channels) = self.channels(simd, places) {
+                        add(simd, channels, places.count, sum);
+                        return;
+                    }
+                    for lane in 0..places.count {
+                        if let Some(channels) = self.channels(simd, &places.alone(lane)) {
+                            add(simd, channels, 1, sum);
+                        }
+                    }
+                });
+            },
+        );
+    }
+}
+
+/// Adds the channels of so many colours to a sum.
+#[inline(always)]
+fn add<S: Simd>(simd: S, channels: [f32x16<S>; 4], count: usize, sums: &mut [u32; 4]) {
+    let mut taken = [0.0; LANES];
+    taken[..count.min(LANES)].fill(1.0);
+    let taken = f32x16::simd_from(simd, taken);
+    for (sum, channel) in sums.iter_mut().zip(channels) {
+        // Of whole numbers sums are exact.
+        *sum += whole_sum((channel * taken).reduce_sum());
     }
 }
 

@@ -5,6 +5,8 @@
 //!     |~~#|############|~~|      f1 of a texel lie left of them; rows likewise
 //! ```
 //!
+//! Beyond a border where the outermost texels go on, sums go on as in the last column or row, and nothing else changes.
+//!
 //! Differences of sums are whole numbers and exact; parts of a texel are weighed in 32-bit floats, and a mean errs by less than
 //! one part in a million of the brightest: a tenth of the steps in which channels are stored.
 
@@ -20,14 +22,11 @@ use glam::DVec2;
 use super::few_texels::FewTexels;
 use super::filter_plan::{PixelList, Plan};
 use super::fixed_point::REACH;
-use super::sample_places::{LANES, PixelPlaces, Places, whole, whole_sum};
+use super::sample_places::{LANES, PixelPlaces, Places, ROUNDING, whole, whole_sum};
 use super::summed_area::SummedAreaTable;
 use super::texel_blocks::EndlessLevel;
 use super::{TexelBox, UvMap, Wrap};
 use crate::color::Premultiplied16;
-
-/// Adding this to a 32-bit float that is smaller rounds it to a whole number.
-const ROUNDING: f32 = 8_388_608.0;
 
 /// A level read by a box.
 #[derive(Clone, Copy, Debug)]

@@ -14,15 +14,14 @@ use fearless_simd::{Simd, dispatch, f32x16, i32x16};
 use glam::DVec2;
 
 use super::ellipse::{Quadratic, SERIES, weight};
-use super::sample_places::{LANES, Places, WeighSamples};
+use super::sample_places::{LANES, Places, WeighSamples, rounded};
 use super::texel_blocks::{EndlessLevel, Line};
 use crate::color::Premultiplied16;
 use crate::simd;
 
 /// Parts of a texel that places are rounded to. With them and a few hundred texels, 32-bit floats are exact.
 const PARTS: f64 = 1024.0;
-/// Adding this to a 32-bit float that is smaller rounds it to a whole number.
-const ROUNDING: f32 = 8_388_608.0;
+
 type Lanes = [f32; LANES];
 
 /// A level read by an ellipse.
@@ -130,12 +129,8 @@ impl EwaFilter<'_> {
                 y += 1;
             }
         }
-        let scale = f32x16::splat(simd, f32::from(Premultiplied16::PER_BYTE)) / total;
-        let mut found = [f32x16::splat(simd, f32::from(Premultiplied16::ONE)); 4];
-        for (found, sum) in found.iter_mut().zip(sums) {
-            *found = sum * scale + ROUNDING - ROUNDING;
-        }
-        found
+        let factor = f32x16::splat(simd, f32::from(Premultiplied16::PER_BYTE)) / total;
+        rounded(simd, sums, factor)
     }
 }
 

@@ -13,12 +13,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
 use glam::DVec2;
 
-use super::sample_places::{LANES, Places, WeighSamples};
+use super::sample_places::{LANES, Places, WeighSamples, rounded};
 use super::texel_blocks::{BLOCK, EndlessLevel, Line};
 use crate::color::Premultiplied16;
 
-/// Adding this to a 32-bit float that is smaller rounds it to a whole number.
-const ROUNDING: f32 = 8_388_608.0;
 /// Columns, and rows, that are looked at together.
 const MOST: usize = 16;
 
@@ -100,12 +98,8 @@ impl FewTexels<'_> {
                 *sum += in_row * part;
             }
         }
-        let scale = narrow(f64::from(Premultiplied16::PER_BYTE) / self.sides.element_product());
-        let mut found = [f32x16::splat(simd, f32::from(Premultiplied16::ONE)); 4];
-        for (found, sum) in found.iter_mut().zip(sums) {
-            *found = sum * scale + ROUNDING - ROUNDING;
-        }
-        found
+        let factor = narrow(f64::from(Premultiplied16::PER_BYTE) / self.sides.element_product());
+        rounded(simd, sums, f32x16::splat(simd, factor))
     }
 }
 

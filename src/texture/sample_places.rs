@@ -14,6 +14,8 @@ use super::filter_plan::{Axis, PixelList, Plan};
 use super::fixed_point::REACH;
 use crate::color::Premultiplied16;
 
+/// Adding this to a 32-bit float that is smaller rounds it to a whole number.
+pub(super) const ROUNDING: f32 = 8_388_608.0;
 /// Samples that are read together.
 pub(super) const LANES: usize = 16;
 
@@ -217,6 +219,20 @@ pub(super) trait WeighSamples {
             },
         );
     }
+}
+
+/// Sums times a factor as whole numbers; channels that were not summed are the greatest.
+#[inline(always)]
+pub(super) fn rounded<S: Simd, const CHANNELS: usize>(
+    simd: S,
+    sums: [f32x16<S>; CHANNELS],
+    factor: f32x16<S>,
+) -> [f32x16<S>; 4] {
+    let mut found = [f32x16::splat(simd, f32::from(Premultiplied16::ONE)); 4];
+    for (found, sum) in found.iter_mut().zip(sums) {
+        *found = sum * factor + ROUNDING - ROUNDING;
+    }
+    found
 }
 
 /// Adds the channels of so many colours to a sum.

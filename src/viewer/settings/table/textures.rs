@@ -54,7 +54,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "An ellipse blurs least and costs some thirty times level zero; a box from sums, some ten times, and a ripmap, some five, blur what lies across the axes",
+            more: "An ellipse blurs least and costs some twenty times level zero; a box from sums, some eight times, and a ripmap, some three, blur what lies across the axes",
             keys: &[Chord::char('l')],
             ..SettingCommand::new(
                 "level-sampling",

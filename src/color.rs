@@ -12,7 +12,10 @@ mod sample_mean;
 mod value_spread;
 mod weighted;
 
+use fearless_simd::{Simd, dispatch};
+
 use crate::rules::Rules;
+use crate::simd;
 
 pub use blend::BlendMode;
 pub use colormap::Colormap;
@@ -268,18 +271,25 @@ impl Premultiplied16 {
         0xFF00_0000 | r << 16 | g << 8 | b
     }
 
-    /// [`Premultiplied16::to_pixel`] of many opaque colours; four channels at once in one 64-bit number.
+    /// [`Premultiplied16::to_pixel`] of many opaque colours.
     pub fn opaque_to_pixels(colors: &[Self], rules: Rules, pixels: &mut [u32]) {
+        dispatch!(simd::level(), simd => Self::opaque_to_pixels_with(simd, colors, rules, pixels));
+    }
+
+    /// Four channels at once in one 64-bit number.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn opaque_to_pixels_with<S: Simd>(_: S, colors: &[Self], rules: Rules, pixels: &mut [u32]) {
         let half = match rules {
             Rules::Standard | Rules::Float => 0x0080_0080_0080_0080,
             Rules::Course => 0,
         };
-        for (pixel, Self([r, g, b, a])) in pixels.iter_mut().zip(colors) {
-            let word = u64::from(*b) | u64::from(*g) << 16 | u64::from(*r) << 32 | u64::from(*a) << 48;
-            // A byte in every other byte, then side by side in each half, then both halves together.
-            let spread = ((word + half) >> 8) & 0x00FF_00FF_00FF_00FF;
-            let paired = spread | spread >> 8;
-            *pixel = low_half(paired & 0xFFFF | paired >> 16 & 0xFFFF_0000);
+        for (pixel, color) in pixels.iter_mut().zip(colors) {
+            // A byte in every other byte, red in the lowest one.
+            let spread = (color.to_word() + half) >> 8;
+            let (red, green) = ((spread & 0xFF) << 16, spread >> 8 & 0xFF00);
+            let (blue, alpha) = (spread >> 32 & 0xFF, spread >> 24 & 0xFF00_0000);
+            *pixel = low_half(red | green | blue | alpha);
         }
     }
 

@@ -4,10 +4,10 @@
 use crate::color::Premultiplied16;
 use crate::raster::coverage::area::row::CoveredArea;
 use crate::raster::paint::recorder::Recorder;
-use crate::raster::paint::sample_colors::SampleColors;
+use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::{Span, SpanRect};
+use crate::raster::span::SpanRect;
 
 /// What one primitive covers of a tile, and waits to be shaded.
 #[derive(Debug, Default)]
@@ -47,13 +47,15 @@ impl AreaQueue {
         colors.resize(points.len(), Premultiplied16::TRANSPARENT);
         let SpanRect { x, y } = tile.rect;
         shader.points(context.samples_from([x.start, y.start]), points, colors);
-        let mut rest = colors.iter();
-        for (y, CoveredArea { xs, area }) in covered.drain(..) {
-            for (start, color) in (xs.start..xs.end).zip(&mut rest) {
-                let xs = Span { start, end: start + 1 };
-                tile.fill_area(y, CoveredArea { xs, area }, *color);
-                if let Some(recorder) = &mut recorder {
-                    recorder.paint_area(area, *color);
+        let mut rest = colors.as_slice();
+        for (y, covered) in covered.drain(..) {
+            let (colors, others) = rest.split_at(covered.xs.length());
+            rest = others;
+            let opaque = shader.opaque;
+            tile.fill_area_each(y, covered, ShadedColors { colors, opaque });
+            if let Some(recorder) = &mut recorder {
+                for color in colors {
+                    recorder.paint_area(covered.area, *color);
                 }
             }
         }

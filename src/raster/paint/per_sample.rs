@@ -74,9 +74,7 @@ impl<'a> PerSamplePainter<'a> {
                 self.record(chunk, *entry);
             }
             match entry.work(chunk) {
-                Work::Flat(shape, color) if shape_coverage.has_areas() => {
-                    self.area(shape, shape_coverage, |_| Shader::flat(color));
-                }
+                Work::Flat(shape, color) if shape_coverage.has_areas() => self.flat_area(shape, shape_coverage, color),
                 Work::Shaded(shape, corners, paint) if shape_coverage.has_areas() => {
                     self.area(shape, shape_coverage, |context| Shader::new(context, corners, paint));
                 }
@@ -238,6 +236,21 @@ impl<'a> PerSamplePainter<'a> {
             self.samples_shaded += self.once.shade([rect.x.start, rect.y.start], &at_centre, shader);
             self.once.paint(self.layers.top(), &at_centre, self.recorder.as_mut());
         }
+    }
+
+    /// Paints the areas of pixels that a shape covers with one colour.
+    fn flat_area(&mut self, shape: Shape<'_>, shape_coverage: &mut ShapeCoverage, color: Premultiplied16) {
+        let rect = self.layers.base().rect;
+        let (tile, mut recorder) = (self.layers.top(), self.recorder.as_mut());
+        let mut painted = SpanRect::EMPTY;
+        shape_coverage.each_area(shape, rect, |y, covered| {
+            painted = painted.union(covered.pixels(y));
+            tile.fill_area(y, covered, color);
+            if let Some(recorder) = &mut recorder {
+                recorder.paint_area(covered.area, color);
+            }
+        });
+        tile.note_painted(painted.intersection(rect));
     }
 
     /// As [`PerSamplePainter::shape`], where the shape covers areas of pixels.

@@ -46,6 +46,12 @@ impl AreaEdge {
         (self.top[0] + rounded((y - self.top[1]) as f64 * self.slope)).clamp(low, high)
     }
 
+    /// The place on it in row `y`.
+    #[inline]
+    pub(super) fn at(&self, y: i64) -> [i64; 2] {
+        [self.x_at(y), y]
+    }
+
     /// Where it crosses column `x`, which must lie between its ends, and these not above each other.
     #[inline]
     pub(super) fn y_at(&self, x: i64) -> i64 {

@@ -75,14 +75,10 @@ impl AreaRow {
         }
     }
 
-    /// Adds an edge from `top` to `bottom`, which lie in the row; `sign` is 1 where a shape begins at it and -1 where it ends.
+    /// Adds an edge between two places on it, the upper one first, which lie in the row; `sign` is 1 where a shape begins at it
+    /// and -1 where it ends.
     #[inline]
-    pub(super) fn add(&mut self, edge: &AreaEdge, [top, bottom]: [i64; 2], sign: i64) {
-        if top >= bottom {
-            return;
-        }
-        let from = [edge.x_at(top), top];
-        let to = [edge.x_at(bottom), bottom];
+    pub(super) fn add(&mut self, edge: &AreaEdge, [from, to]: [[i64; 2]; 2], sign: i64) {
         let column = from[0] >> BITS;
         if column == to[0] >> BITS {
             return self.part(column, from, to, sign);
@@ -91,6 +87,7 @@ impl AreaRow {
     }
 
     /// An edge through more than one column of pixels.
+    #[inline(never)]
     fn long(&mut self, edge: &AreaEdge, [mut from, mut to]: [[i64; 2]; 2], sign: i64) {
         let [low, high] = [self.columns.start, self.columns.end].map(|column| i64::from(column) << BITS);
         let within = |x: i64| edge.y_at(x).clamp(from[1], to[1]);

@@ -57,7 +57,10 @@ impl ShapeArea {
 
     fn triangle(&mut self, corners: [GridPoint; 3], rect: SpanRect, mut visit: impl FnMut(i32, CoveredArea)) {
         let way = doubled_area(corners).signum();
-        let edges = [[0, 1], [1, 2], [2, 0]].map(|ends| {
+        let pixels = SpanRect::of_touched(corners, self.grid).intersection(rect);
+        let first = i64::from(pixels.y.start) * PIXEL;
+        // Each with how far down it was added.
+        let mut edges = [[0, 1], [1, 2], [2, 0]].map(|ends| {
             let [from, to] = ends.map(|end| corners[end]);
             // Clockwise on the screen a left edge runs up.
             let (ends, winding) = if from.y < to.y {
@@ -65,15 +68,18 @@ impl ShapeArea {
             } else {
                 ([to, from], 1)
             };
-            (AreaEdge::new(self.grid, ends, winding), way * i64::from(winding))
+            let edge = AreaEdge::new(self.grid, ends, winding);
+            (edge, edge.at(edge.top[1].max(first)), way * i64::from(winding))
         });
-        let pixels = SpanRect::of_touched(corners, self.grid).intersection(rect);
         self.row.go_to(pixels.x);
         for y in pixels.y.start..pixels.y.end {
-            let top = i64::from(y) * PIXEL;
-            for (edge, sign) in &edges {
-                let inside = [edge.top[1].max(top), edge.bottom[1].min(top + PIXEL)];
-                self.row.add(edge, inside, *sign);
+            let bottom = (i64::from(y) + 1) * PIXEL;
+            for (edge, from, sign) in &mut edges {
+                if from[1] < bottom && from[1] < edge.bottom[1] {
+                    let to = edge.at(edge.bottom[1].min(bottom));
+                    self.row.add(edge, [*from, to], *sign);
+                    *from = to;
+                }
             }
             self.row.take(|covered| visit(y, covered));
         }

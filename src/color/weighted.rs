@@ -17,15 +17,54 @@ const ONE_LIGHT: f64 = (1_u32 << 24) as f64;
 static LIGHT: LazyLock<Vec<i32>> =
     LazyLock::new(|| (0..=Premultiplied16::ONE).map(|stored| light(stored.into())).collect());
 
-/// The least light of each byte from 1 on, rounded to nearest; and truncated.
-static LEAST: LazyLock<[Vec<i32>; 2]> = LazyLock::new(|| {
-    let per_byte = f64::from(Premultiplied16::PER_BYTE);
-    [0.5, 0.0].map(|below| {
-        (1..=255)
-            .map(|byte| light((f64::from(byte) - below) * per_byte))
-            .collect()
-    })
-});
+/// How light becomes bytes, rounded to nearest; and truncated.
+static STEPS: LazyLock<[Steps; 2]> = LazyLock::new(|| [0.5, 0.0].map(Steps::new));
+
+/// Light that a piece of [`Steps::below`] spans: less than lies between any two bytes, which is least in the dark.
+const PIECE_BITS: u32 = 12;
+const PIECES: usize = (1 << (24 - PIECE_BITS)) + 1;
+
+/// Where light becomes the next byte.
+#[derive(Debug)]
+struct Steps {
+    /// The least light of each byte from 1 on, and more than all light.
+    least: [i32; 256],
+    /// How many of these each piece of light begins with, or has below it.
+    below: [u8; PIECES],
+}
+
+impl Steps {
+    /// With this much of a byte being enough for the next one's light to be `1 - below` away.
+    fn new(below: f64) -> Self {
+        let per_byte = f64::from(Premultiplied16::PER_BYTE);
+        let mut least = [i32::MAX; 256];
+        for (least, byte) in least.iter_mut().zip(1..=255_u8) {
+            *least = light((f64::from(byte) - below) * per_byte);
+        }
+        let mut pieces = [0; PIECES];
+        for (piece, below) in (0..).zip(&mut pieces) {
+            let count = least.partition_point(|light| *light <= piece << PIECE_BITS);
+            *below = u8::try_from(count).unwrap_or(u8::MAX);
+        }
+        Self { least, below: pieces }
+    }
+
+    /// As `rules` say.
+    fn of(rules: Rules) -> &'static Self {
+        match rules {
+            Rules::Standard | Rules::Float => &STEPS[0],
+            Rules::Course => &STEPS[1],
+        }
+    }
+
+    /// The byte of this light.
+    #[inline]
+    fn byte(&self, light: i64) -> u32 {
+        let light = i32::try_from(light.clamp(0, 1 << 24)).unwrap_or(0);
+        let below = self.below[(light.cast_unsigned() >> PIECE_BITS) as usize % PIECES];
+        u32::from(below) + u32::from(self.least[usize::from(below)] <= light)
+    }
+}
 
 /// Linear light of a stored channel.
 #[expect(clippy::cast_possible_truncation, reason = "between nothing and ONE_LIGHT")]
@@ -104,18 +143,38 @@ impl ResolveSpace {
                     divided(channel * 255, alpha, rules)
                 }
             }
+            // A light is at least another, which is a whole number, where the whole part of it is.
+            Self::Linear if alpha == one => Steps::of(rules).byte(channel.div_euclid(weight)),
             Self::Linear => encoded(channel, alpha, rules),
         });
         opacity << 24 | r << 16 | g << 8 | b
     }
+
+    /// The opaque pixel `0xAARRGGBB` that is the mean of two opaque ones, of which the second weighs `part` of `2^15` parts;
+    /// rounded to nearest.
+    #[inline]
+    pub fn opaque_mean(self, pixels: [u32; 2], part: u16) -> u32 {
+        const BITS: u32 = 15;
+        let [first, second] = pixels.map(u32::to_be_bytes);
+        let part = i64::from(part);
+        let mean = |first: i64, second: i64| (first << BITS) + (second - first) * part;
+        let stored = |k: usize| {
+            let sum = mean(first[k].into(), second[k].into()) + (1 << (BITS - 1));
+            u32::try_from(sum >> BITS).unwrap_or(255)
+        };
+        let light = |byte: u8| i64::from(LIGHT[usize::from(Premultiplied16::PER_BYTE) * usize::from(byte)]);
+        let lit = |k: usize| Steps::of(Rules::Standard).byte(mean(light(first[k]), light(second[k])) >> BITS);
+        let [r, g, b] = match self {
+            Self::Stored => [stored(1), stored(2), stored(3)],
+            Self::Linear => [lit(1), lit(2), lit(3)],
+        };
+        0xFF00_0000 | r << 16 | g << 8 | b
+    }
 }
 
-/// The byte of the light `channel / alpha`.
+/// The byte of the light `channel / alpha` of a sum that is not opaque.
 fn encoded(channel: i64, alpha: i64, rules: Rules) -> u32 {
-    let least = match rules {
-        Rules::Standard | Rules::Float => &LEAST[0],
-        Rules::Course => &LEAST[1],
-    };
+    let least = &Steps::of(rules).least[..255];
     // A light is at least another where as much of that is no more: nothing is rounded before.
     let sum = i128::from(channel) * i128::from(Premultiplied16::ONE);
     let byte = least.partition_point(|light| i128::from(*light) * i128::from(alpha) <= sum);

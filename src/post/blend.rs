@@ -68,7 +68,8 @@ impl Blend {
         ]
     }
 
-    /// The weight of the only neighbour that is blended in, and that pixel, if it is but one.
+    /// The weight of the only neighbour that is blended in, and that pixel, if it is but one: with weight `w`, the shares
+    /// `w (1 - w)` and `w w` are to each other as `1 - w` and `w`, whose sum needs no division.
     fn only(self, neighbours: [u32; 2]) -> Option<(u16, u32)> {
         match self.weights {
             [first, 0] => Some((first, neighbours[0])),
@@ -79,10 +80,12 @@ impl Blend {
 
     /// The pixel `0xAARRGGBB` that becomes of one and its neighbours.
     pub(super) fn pixel(self, own: u32, neighbours: [u32; 2], values: Values) -> u32 {
-        let is_plain = values.space == ResolveSpace::Stored && values.rules != Rules::Course;
         let is_opaque = (own & neighbours[0] & neighbours[1]) >> 24 == 255;
-        if let (true, true, Some((weight, neighbour))) = (is_plain, is_opaque, self.only(neighbours)) {
-            return opaque(own, neighbour, weight);
+        if let Some((weight, neighbour)) = self.only(neighbours)
+            && is_opaque
+            && values.rules != Rules::Course
+        {
+            return values.space.opaque_mean([own, neighbour], weight);
         }
         let mut sum = WeightedSum::default();
         for (weight, pixel) in self.shares().into_iter().zip([own, neighbours[0], neighbours[1]]) {
@@ -97,32 +100,20 @@ impl Blend {
     }
 }
 
-/// An opaque pixel and another by its weight, bytes rounded to nearest. With a single neighbour of weight `w`, the shares
-/// `w (1 - w)` and `w w` are to each other as `1 - w` and `w`, whose sum needs no division.
-#[inline]
-fn opaque(own: u32, neighbour: u32, weight: u16) -> u32 {
-    let weight = i32::from(weight);
-    let [_, own @ ..] = own.to_be_bytes();
-    let [_, neighbour @ ..] = neighbour.to_be_bytes();
-    let one = i32::from(ONE);
-    let [r, g, b] = [0, 1, 2].map(|k| {
-        let (own, neighbour) = (i32::from(own[k]), i32::from(neighbour[k]));
-        (own * one + (neighbour - own) * weight + one / 2) / one
-    });
-    0xFF00_0000 | r.cast_unsigned() << 16 | g.cast_unsigned() << 8 | b.cast_unsigned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_single_neighbour_is_blended_in_as_all_are() {
-        let values = Values {
-            space: ResolveSpace::Stored,
+        let cases = ResolveSpace::ALL.map(|space| Values {
+            space,
             rules: Rules::Standard,
-        };
-        for weight in (1..=ONE).step_by(61) {
+        });
+        for (weight, values) in (1..=ONE)
+            .step_by(61)
+            .flat_map(|weight| cases.map(|values| (weight, values)))
+        {
             for level in (0..=255).step_by(5) {
                 let (own, other) = (0xFF00_8040, 0xFFFF_0000 | level << 8 | (255 - level));
                 let blend = Blend {
@@ -135,7 +126,11 @@ mod tests {
                     sum.add(share, values.space.parts(Premultiplied16::from_bytes([r, g, b, a])));
                 }
                 let expected = values.space.weighted_pixel(sum, values.rules);
-                assert_eq!(blend.pixel(own, [other, own], values), expected, "{weight}, {level}");
+                assert_eq!(
+                    blend.pixel(own, [other, own], values),
+                    expected,
+                    "{weight}, {level}, {values:?}"
+                );
             }
         }
     }

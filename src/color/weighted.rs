@@ -155,18 +155,35 @@ impl ResolveSpace {
     #[inline]
     pub fn opaque_mean(self, pixels: [u32; 2], part: u16) -> u32 {
         const BITS: u32 = 15;
-        let [first, second] = pixels.map(u32::to_be_bytes);
-        let part = i64::from(part);
-        let mean = |first: i64, second: i64| (first << BITS) + (second - first) * part;
-        let stored = |k: usize| {
-            let sum = mean(first[k].into(), second[k].into()) + (1 << (BITS - 1));
-            u32::try_from(sum >> BITS).unwrap_or(255)
-        };
-        let light = |byte: u8| i64::from(LIGHT[usize::from(Premultiplied16::PER_BYTE) * usize::from(byte)]);
-        let lit = |k: usize| Steps::of(Rules::Standard).byte(mean(light(first[k]), light(second[k])) >> BITS);
+        let [[_, first @ ..], [_, second @ ..]] = pixels.map(u32::to_be_bytes);
+        // Written out, since arrays that are mapped are not always inlined.
         let [r, g, b] = match self {
-            Self::Stored => [stored(1), stored(2), stored(3)],
-            Self::Linear => [lit(1), lit(2), lit(3)],
+            Self::Stored => {
+                let part = i32::from(part);
+                let mean = |first: u8, second: u8| {
+                    let (first, second) = (i32::from(first), i32::from(second));
+                    (((first << BITS) + (second - first) * part + (1 << (BITS - 1))) >> BITS).cast_unsigned()
+                };
+                [
+                    mean(first[0], second[0]),
+                    mean(first[1], second[1]),
+                    mean(first[2], second[2]),
+                ]
+            }
+            Self::Linear => {
+                let steps = Steps::of(Rules::Standard);
+                let part = i64::from(part);
+                let light = |byte: u8| i64::from(LIGHT[usize::from(Premultiplied16::PER_BYTE) * usize::from(byte)]);
+                let mean = |first: u8, second: u8| {
+                    let (first, second) = (light(first), light(second));
+                    steps.byte(((first << BITS) + (second - first) * part) >> BITS)
+                };
+                [
+                    mean(first[0], second[0]),
+                    mean(first[1], second[1]),
+                    mean(first[2], second[2]),
+                ]
+            }
         };
         0xFF00_0000 | r << 16 | g << 8 | b
     }

@@ -57,6 +57,13 @@ impl Bits {
         let at = word * self.steps[0] + row * self.steps[1];
         self.words.get(at).copied().unwrap_or_default()
     }
+
+    /// The words of that number in the two rows before `row`, in it, and in the next.
+    #[inline]
+    pub(super) fn around(&self, word: usize, row: i32) -> [Words; 4] {
+        let beside = |rows: i32| self.word(word, row + rows);
+        [beside(-2), beside(-1), beside(0), beside(1)]
+    }
 }
 
 /// Words of a row: one before it, and one after that of the pixel beyond its end.
@@ -69,6 +76,12 @@ fn words_of(length: usize) -> usize {
 pub(super) fn place(along: i32) -> (usize, u32) {
     let along = (along + 64).unsigned_abs();
     ((along / 64) as usize, along % 64)
+}
+
+/// A pixel of a row, by the number of its word and its bit there.
+#[inline]
+pub(super) fn along(word: usize, bit: u32) -> i32 {
+    i32::try_from(word * 64).unwrap_or(i32::MAX) - 64 + bit.cast_signed()
 }
 
 /// The bits up to one, from the highest downwards: of the word before, and of its own.

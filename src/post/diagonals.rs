@@ -47,6 +47,7 @@ impl Reached {
 }
 
 /// Follows a diagonal by `step` as long as `stair`, the two edges of each pixel, says that it goes on.
+#[inline]
 fn follow([x, y]: [i32; 2], step: [i32; 2], stair: impl Fn([i32; 2]) -> [bool; 2]) -> Reached {
     let mut steps = 0;
     loop {
@@ -63,27 +64,28 @@ fn follow([x, y]: [i32; 2], step: [i32; 2], stair: impl Fn([i32; 2]) -> [bool; 2
     }
 }
 
-/// Which of the 64 pixels of a word in row `y` diagonals may go through: no others have three steps.
-pub(super) fn candidates(edges: &Edges, word: usize, y: i32) -> u64 {
+/// Which of the 64 pixels of a word in row `y` diagonals may go through that rise, and which that fall: no others have three
+/// steps.
+pub(super) fn candidates(edges: &Edges, word: usize, y: i32) -> [u64; 2] {
     // The edges of the pixels that lie so far to the right and below: those of a row begin in column `x`.
-    let moved = |x: i32, y: i32| {
-        let words = [word - 1, word, word + 1].map(|word| edges.rows.word(word, y));
-        [LEFT, TOP].map(|side| match x.unsigned_abs() {
-            0 => words[1][side],
-            by if x > 0 => words[1][side] >> by | words[2][side] << (64 - by),
-            by => words[1][side] << by | words[0][side] >> (64 - by),
-        })
+    let moved = |x: i32, y: i32, side: usize| {
+        let words = |word: usize| edges.rows.word(word, y)[side];
+        match x.unsigned_abs() {
+            0 => words(word),
+            by if x > 0 => words(word) >> by | words(word + 1) << (64 - by),
+            by => words(word) << by | words(word - 1) >> (64 - by),
+        }
     };
-    let rises = |step: i32| {
-        let [left, top] = moved(step, y - step);
-        left & top
-    };
-    let falls = |step: i32| moved(step + 1, y + step)[LEFT] & moved(step, y + step)[TOP];
-    let [left, top] = moved(0, y);
-    let right = moved(1, y)[LEFT];
+    let rises = |step: i32| moved(step, y - step, LEFT) & moved(step, y - step, TOP);
+    let falls = |step: i32| moved(step + 1, y + step, LEFT) & moved(step, y + step, TOP);
+    let top = moved(0, y, TOP);
+    if top == 0 {
+        return [0; 2];
+    }
+    let (left, right) = (moved(0, y, LEFT), moved(1, y, LEFT));
     let rising = may_go(left, [rises(1), rises(2), rises(3)], [rises(-1), rises(-2)]);
     let falling = may_go(right, [falls(-1), falls(-2), falls(-3)], [falls(1), falls(2)]);
-    top & (rising | falling)
+    [top & rising, top & falling]
 }
 
 /// Whether the stairs of a diagonal may be three: upwards from a pixel, and downwards where it has the `side` for that.
@@ -92,9 +94,13 @@ fn may_go(side: u64, up: [u64; 3], down: [u64; 2]) -> u64 {
 }
 
 impl Diagonal {
-    /// The diagonals that go through a pixel with a top edge: the one that rises, and the one that falls.
-    pub(super) fn through(edges: &Edges, pixel: [i32; 2]) -> [Option<Self>; 2] {
-        [Self::rising(edges, pixel), Self::falling(edges, pixel)]
+    /// The diagonals that go through a pixel with a top edge, the one that rises and the one that falls, if it is among the
+    /// [`candidates`] of either.
+    #[inline]
+    pub(super) fn through(edges: &Edges, pixel: [i32; 2], [may_rise, may_fall]: [bool; 2]) -> [Option<Self>; 2] {
+        let rising = may_rise.then(|| Self::rising(edges, pixel));
+        let falling = may_fall.then(|| Self::falling(edges, pixel));
+        [rising.flatten(), falling.flatten()]
     }
 
     fn rising(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {

@@ -78,48 +78,77 @@ pub(super) struct Line {
     pub(super) ends: [End; 2],
 }
 
-impl Line {
-    /// The line that an edge of the pixel at `place`, along the axis and across it, is part of.
-    pub(super) fn through(edges: &Edges, axis: Axis, [along, across]: [i32; 2]) -> Self {
+/// The edges around 64 pixels of a row, or of a column: each word between the one before and the one after it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LineWords {
+    line: [u64; 3],
+    /// What crosses lines: in the two rows before them, and in the two after.
+    crossing: [[u64; 3]; 4],
+}
+
+impl LineWords {
+    /// Around the pixels of word number `word` of the row, or column, `across`.
+    #[inline]
+    pub(super) fn new(edges: &Edges, axis: Axis, word: usize, across: i32) -> Self {
         let [line, crossing] = axis.sides();
         let bits = axis.bits(edges);
-        let (number, bit) = bits::place(along);
-        let near = [number - 1, number, number + 1].map(|word| {
-            let own = bits.word(word, across);
-            (own[line], own[crossing] | bits.word(word, across - 1)[crossing])
-        });
-        let [lines, crossed] = [near.map(|(line, _)| line), near.map(|(_, crossed)| crossed)];
+        let around = |word: usize| bits.around(word, across);
+        let [before, own, after] = [around(word - 1), around(word), around(word + 1)];
+        // Spelled out: compilers leave `map` of such arrays a function of its own.
+        let crosses = |row: usize| [before[row][crossing], own[row][crossing], after[row][crossing]];
+        Self {
+            line: [before[2][line], own[2][line], after[2][line]],
+            crossing: [crosses(0), crosses(1), crosses(2), crosses(3)],
+        }
+    }
+
+    /// The line that an edge of the pixel with this bit is part of.
+    #[inline]
+    pub(super) fn line(&self, bit: u32) -> Line {
+        let (lines, [_, far, near, _]) = (self.line, self.crossing);
+        let crossed = [far[0] | near[0], far[1] | near[1], far[2] | near[2]];
         // It goes on before a pixel that nothing crosses, where the one before has an edge.
         let goes_on = bits::up_to(bit, [lines[0], lines[1]]) << 1 & !bits::up_to(bit, [crossed[0], crossed[1]]);
         let before = goes_on.leading_ones().min(LONGEST.into());
         let goes_on = bits::after(bit, [lines[1], lines[2]]) & !bits::after(bit, [crossed[1], crossed[2]]);
         let after = goes_on.trailing_ones().min(LONGEST.into());
-        let [before, after] = [before, after].map(|length| u8::try_from(length).unwrap_or(LONGEST));
-        let end_at = |along: i32| {
-            let (word, bit) = bits::place(along);
-            let crosses = |row: i32| bits.word(word, across + row)[crossing] >> bit & 1 != 0;
-            End {
-                near: crosses(0),
-                far: crosses(-1),
-                goes_on: [crosses(1), crosses(-2)],
-            }
-        };
-        let (begin, end) = (along - i32::from(before), along + 1 + i32::from(after));
-        Self {
-            lengths: [before, after],
-            ends: [end_at(begin), end_at(end)],
+        // Counted from the word before.
+        let (begin, end) = (64 + bit - before, 64 + bit + 1 + after);
+        Line {
+            lengths: [
+                u8::try_from(before).unwrap_or(LONGEST),
+                u8::try_from(after).unwrap_or(LONGEST),
+            ],
+            ends: [self.end(begin), self.end(end)],
         }
+    }
+
+    #[inline]
+    fn end(&self, at: u32) -> End {
+        let (word, bit) = ((at / 64) as usize, at % 64);
+        let crosses = |row: usize| self.crossing[row][word % 3] >> bit & 1 != 0;
+        End {
+            near: crosses(2),
+            far: crosses(1),
+            goes_on: [crosses(3), crosses(0)],
+        }
+    }
+}
+
+impl Line {
+    /// The line that an edge of the pixel at `place`, along the axis and across it, is part of.
+    #[inline]
+    pub(super) fn through(edges: &Edges, axis: Axis, [along, across]: [i32; 2]) -> Self {
+        let (word, bit) = bits::place(along);
+        LineWords::new(edges, axis, word, across).line(bit)
     }
 
     /// The number of its pattern among the sixteen that ends can make: a bit for each crossing edge, those on the own side
     /// first, those where it begins before those where it ends.
     pub(super) fn pattern(self) -> usize {
         let [begin, end] = self.ends;
-        [begin.near, end.near, begin.far, end.far]
-            .into_iter()
-            .enumerate()
-            .map(|(bit, crosses)| usize::from(crosses) << bit)
-            .sum()
+        let bit = |crosses: bool, bit: usize| usize::from(crosses) << bit;
+        bit(begin.near, 0) | bit(end.near, 1) | bit(begin.far, 2) | bit(end.far, 3)
     }
 
     /// What corners leave of the weight of each side, in eighths: a crossing edge that goes on is a corner of the shape, which
@@ -133,9 +162,8 @@ impl Line {
             std::cmp::Ordering::Equal => [CORNER / 2; 2],
             std::cmp::Ordering::Greater => [0, CORNER],
         };
-        [0, 1].map(|side| {
-            let corners = self.ends.iter().zip(lost).filter(|(end, _)| end.goes_on[side]);
-            8 - corners.map(|(_, lost)| lost).sum::<u16>()
-        })
+        let [begin, end] = self.ends;
+        let kept = |side: usize| 8 - lost[0] * u16::from(begin.goes_on[side]) - lost[1] * u16::from(end.goes_on[side]);
+        [kept(0), kept(1)]
     }
 }

@@ -3,7 +3,7 @@
 use super::areas::ONE;
 use super::blend::{Around, Values};
 use super::edges::{Edges, LEFT, TOP, contrast};
-use super::lines::{End, Line};
+use super::lines::{Axis, End, Line};
 use super::smaa::smaa;
 use super::weights::{Found, Weights};
 
@@ -222,7 +222,7 @@ fn pattern(edges: &Edges, own: [i32; 2], neighbour: Neighbour) -> Option<Pattern
     Some(match (side, top) {
         (TOP, Some(found)) => Pattern::of(found),
         (_, Some(Found::Diagonals(_))) => Pattern::Taken,
-        _ => Pattern::of(Found::at_left(edges, at)),
+        _ => Pattern::of_line(Line::through(edges, Axis::Column, Axis::Column.place(at))),
     })
 }
 

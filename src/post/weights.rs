@@ -1,10 +1,10 @@
 //! How much of each other two pixels beside an edge take.
 
 use super::areas::{self, Areas, ONE};
-use super::bits;
+use super::bits::{self, Words};
 use super::diagonals::{self, Diagonal};
 use super::edges::{Edges, LEFT, TOP};
-use super::lines::{Axis, Line};
+use super::lines::{Axis, Line, LineWords};
 
 /// Weights at the edges of a pixel, in parts of [`ONE`]: what the pixel takes of its neighbour there, and that of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,38 +21,86 @@ pub(super) enum Found {
     Line(Line),
 }
 
+/// The edges of 64 pixels of a row, and what is around them.
+struct RowWord<'e> {
+    edges: &'e Edges,
+    word: usize,
+    y: i32,
+    sides: Words,
+    /// Where a diagonal may rise, and where one may fall.
+    diagonals: [u64; 2],
+    lines: LineWords,
+}
+
 impl Found {
     /// At the top edge of a pixel, through which diagonals go, if any do.
-    pub(super) fn at_top(edges: &Edges, pixel: [i32; 2]) -> Self {
-        let diagonals = Diagonal::through(edges, pixel);
-        // Some patterns of diagonals cover nothing.
-        if diagonals_weights(diagonals) != [0; 2] {
-            return Self::Diagonals(diagonals);
+    pub(super) fn at_top(edges: &Edges, [x, y]: [i32; 2]) -> Self {
+        let (word, bit) = bits::place(x);
+        RowWord::new(edges, word, y).top(bit).0
+    }
+}
+
+impl<'e> RowWord<'e> {
+    /// Of word number `word` in row `y`.
+    fn new(edges: &'e Edges, word: usize, y: i32) -> Self {
+        Self {
+            edges,
+            word,
+            y,
+            sides: edges.rows.word(word, y),
+            diagonals: diagonals::candidates(edges, word, y),
+            lines: LineWords::new(edges, Axis::Row, word, y),
         }
-        Self::along_row(edges, pixel)
     }
 
-    /// At the top edge of a pixel that no diagonal goes through.
+    fn pixel(&self, bit: u32) -> [i32; 2] {
+        [bits::along(self.word, bit), self.y]
+    }
+
+    /// What lies at the top edge of the pixel with this bit, and its weights.
     #[inline]
-    fn along_row(edges: &Edges, pixel: [i32; 2]) -> Self {
-        Self::Line(Line::through(edges, Axis::Row, Axis::Row.place(pixel)))
-    }
-
-    /// At the left edge of a pixel.
-    pub(super) fn at_left(edges: &Edges, pixel: [i32; 2]) -> Self {
-        Self::Line(Line::through(edges, Axis::Column, Axis::Column.place(pixel)))
-    }
-
-    pub(super) fn weights(self) -> Areas {
-        match self {
-            Self::Diagonals(diagonals) => diagonals_weights(diagonals),
-            Self::Line(line) => {
-                let kept = line.kept_by_corners();
-                let areas = areas::of_line(line);
-                [0, 1].map(|side| areas[side] - areas[side] / 8 * (8 - kept[side]))
+    fn top(&self, bit: u32) -> (Found, Areas) {
+        let [rises, falls] = self.diagonals;
+        let may_be = [rises >> bit & 1 != 0, falls >> bit & 1 != 0];
+        if may_be != [false; 2] {
+            let diagonals = Diagonal::through(self.edges, self.pixel(bit), may_be);
+            let weights = diagonals_weights(diagonals);
+            // Some patterns of diagonals cover nothing.
+            if weights != [0; 2] {
+                return (Found::Diagonals(diagonals), weights);
             }
         }
+        let line = self.lines.line(bit);
+        (Found::Line(line), line_weights(line))
     }
+
+    /// The weights at the edges of the pixel with this bit.
+    #[inline]
+    fn weights(&self, bit: u32) -> Weights {
+        let has = |side: usize| self.sides[side] >> bit & 1 != 0;
+        let mut weights = Weights::default();
+        if has(TOP) {
+            let (found, top) = self.top(bit);
+            weights.top = top;
+            // A diagonal has taken care of both edges.
+            if matches!(found, Found::Diagonals(_)) {
+                return weights;
+            }
+        }
+        if has(LEFT) {
+            let column = Axis::Column.place(self.pixel(bit));
+            weights.left = line_weights(Line::through(self.edges, Axis::Column, column));
+        }
+        weights
+    }
+}
+
+#[inline]
+fn line_weights(line: Line) -> Areas {
+    let kept = line.kept_by_corners();
+    let areas = areas::of_line(line);
+    let weight = |side: usize| areas[side] - areas[side] / 8 * (8 - kept[side]);
+    [weight(0), weight(1)]
 }
 
 fn diagonals_weights(diagonals: [Option<Diagonal>; 2]) -> Areas {
@@ -67,30 +115,9 @@ fn diagonals_weights(diagonals: [Option<Diagonal>; 2]) -> Areas {
 
 impl Weights {
     /// At the edges of a pixel.
-    pub(super) fn of(edges: &Edges, pixel: [i32; 2]) -> Self {
-        Self::at(edges, pixel, [LEFT, TOP].map(|side| edges.has(pixel, side)), true)
-    }
-
-    /// At those edges of a pixel: `sides` says whether the left one and the top one are any.
-    #[inline]
-    fn at(edges: &Edges, pixel: [i32; 2], sides: [bool; 2], may_be_diagonal: bool) -> Self {
-        let mut found = Self::default();
-        if sides[TOP] {
-            let top = if may_be_diagonal {
-                Found::at_top(edges, pixel)
-            } else {
-                Found::along_row(edges, pixel)
-            };
-            found.top = top.weights();
-            // A diagonal has taken care of both edges.
-            if matches!(top, Found::Diagonals(_)) {
-                return found;
-            }
-        }
-        if sides[LEFT] {
-            found.left = Found::at_left(edges, pixel).weights();
-        }
-        found
+    pub(super) fn of(edges: &Edges, [x, y]: [i32; 2]) -> Self {
+        let (word, bit) = bits::place(x);
+        RowWord::new(edges, word, y).weights(bit)
     }
 }
 
@@ -120,16 +147,12 @@ impl WeightRow {
                 weights.fill(Weights::default());
                 *weighed = 0;
             }
-            let sides = edges.rows.word(word + 1, y);
-            if sides == [0; 2] {
+            if edges.rows.word(word + 1, y) == [0; 2] {
                 continue;
             }
-            let diagonals = diagonals::candidates(edges, word + 1, y);
-            let start = i32::try_from(word * 64).unwrap_or(i32::MAX);
-            for bit in bits::ones(sides[LEFT] | sides[TOP]) {
-                let x = start + bit.cast_signed();
-                let has = |word: u64| word >> bit & 1 != 0;
-                let found = Weights::at(edges, [x, y], sides.map(has), has(diagonals));
+            let row = RowWord::new(edges, word + 1, y);
+            for bit in bits::ones(row.sides[LEFT] | row.sides[TOP]) {
+                let found = row.weights(bit);
                 weights[bit as usize] = found;
                 *weighed |= u64::from(found != Weights::default()) << bit;
             }

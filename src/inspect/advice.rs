@@ -73,6 +73,22 @@ impl Explanation {
 }
 
 impl Cure {
+    /// What it brings, beside other values of its setting. An area takes several times as long as levels, and has to bring twice as
+    /// much.
+    fn worth(&self) -> f64 {
+        if self.weighs_area() {
+            self.nearer / 2.0
+        } else {
+            self.nearer
+        }
+    }
+
+    /// Whether it makes samples weigh areas of textures.
+    pub(super) fn weighs_area(&self) -> bool {
+        let mut areas = LevelSampling::ALL.into_iter().filter(|level| level.weighs_area());
+        self.setting == Setting::LevelSampling && areas.any(|level| level.name() == self.value)
+    }
+
     /// The part of what the best setting does that this one has to do. A guess has to fit as well as samples do.
     fn worth_a_word(&self) -> f64 {
         let is_guess = self.setting == Setting::PostProcess && self.value == PostProcess::Smaa.name();
@@ -99,8 +115,8 @@ impl Truth {
             })
         });
         let tried: Vec<Cure> = tried.collect();
-        let best = tried.iter().map(|cure| cure.nearer).fold(0.0, f64::max);
-        tried.into_iter().find(|cure| cure.nearer >= best * ENOUGH)
+        let best = tried.iter().map(Cure::worth).fold(0.0, f64::max);
+        tried.into_iter().find(|cure| cure.worth() >= best * ENOUGH)
     }
 }
 

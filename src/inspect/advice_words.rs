@@ -9,7 +9,7 @@ use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Text
 use super::numbers::{number, percent, significant};
 use crate::color::ResolveSpace;
 use crate::raster::{PixelCoverage, ShadingRate};
-use crate::texture::{LevelSampling, PyramidFilter};
+use crate::texture::PyramidFilter;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;
@@ -271,12 +271,6 @@ impl Paint {
 }
 
 impl Cure {
-    /// Whether it makes samples weigh areas of textures.
-    fn weighs_area(&self) -> bool {
-        let mut areas = LevelSampling::ALL.into_iter().filter(|level| level.weighs_area());
-        self.setting == Setting::LevelSampling && areas.any(|level| level.name() == self.value)
-    }
-
     /// What to set, the key that steps through the values, and what it brings.
     fn words(&self) -> String {
         let value = &self.value;

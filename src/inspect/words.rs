@@ -2,7 +2,7 @@
 //! these lines.
 
 use super::model::{Explanation, Fragment, Paint, Shape, Source, View};
-use super::numbers::{number, percent, runs};
+use super::numbers::{hex, number, percent, runs};
 use super::part_words::color;
 
 /// Why a fragment is not seen.
@@ -22,7 +22,7 @@ impl Explanation {
         let [r, g, b, a] = self.color;
         let seen = self.seen_words();
         let unit = self.color.map(|byte| format!("{:.4}", f64::from(byte) / 255.0));
-        vec![
+        let mut lines = vec![
             format!(
                 "user units  ({}, {}), the pixel's centre",
                 number(self.user[0]),
@@ -31,7 +31,11 @@ impl Explanation {
             format!("colour      {}  red {r}, green {g}, blue {b}, alpha {a}", self.hex),
             format!("as parts    {}", unit.join(" ")),
             seen,
-        ]
+        ];
+        if self.resolved() != self.color {
+            lines.push(format!("SMAA made this colour of {}.", hex(self.resolved())));
+        }
+        lines
     }
 
     /// What the samples show, in one sentence, such as `9 of 16 samples show 1 (polygon "left", line 3), 7 show the background.`

@@ -50,6 +50,8 @@ pub(super) struct NearestSamples<'a, const N: usize> {
     side: u32,
     x: Offsets<N>,
     y: Offsets<N>,
+    /// Both axes, where they go on for ever.
+    endless: Option<[Endless; 2]>,
 }
 
 /// The same on one axis.
@@ -60,7 +62,6 @@ struct Offsets<const N: usize> {
     of_samples: [i32; N],
     /// Centres that far outside the level have no sample in it, in texels.
     reach: f64,
-    endless: Option<Endless>,
 }
 
 /// Which texels the samples of a vector of pixels read.
@@ -81,20 +82,26 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
         let offsets = |axis: &Axis| {
             let farthest = plan.first.abs() + LIST;
             let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
-            let endless = plan.endless(axis);
-            Offsets::new(axis, endless, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
+            Offsets::new(axis, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
         };
-        Some(Self {
+        let mut samples = Self {
             x: offsets(&plan.finer.x)?,
             y: offsets(&plan.finer.y)?,
+            endless: None,
             level: plan.finer,
             side,
-        })
+        };
+        if let Some((x, y)) = plan.endless(&plan.finer.x).zip(plan.endless(&plan.finer.y)) {
+            samples.x.bring_before(&x);
+            samples.y.bring_before(&y);
+            samples.endless = Some([x, y]);
+        }
+        Some(samples)
     }
 }
 
 impl<const N: usize> Offsets<N> {
-    fn new(axis: &Axis, endless: Option<Endless>, side: u32) -> Option<Self> {
+    fn new(axis: &Axis, side: u32) -> Option<Self> {
         let middle = f64::from(side - 1) / 2.0;
         let reach = (axis.right.abs() + axis.down.abs()) * middle + 1.0;
         let mut of_samples = [0; N];
@@ -106,16 +113,16 @@ impl<const N: usize> Offsets<N> {
             let down = (j as f64 - middle) * axis.down;
             for (i, offset) in row.iter_mut().enumerate() {
                 *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
-                if let Some(endless) = &endless {
-                    *offset = endless.before(*offset);
-                }
             }
         }
-        reach.is_finite().then_some(Self {
-            of_samples,
-            reach,
-            endless,
-        })
+        reach.is_finite().then_some(Self { of_samples, reach })
+    }
+
+    /// Brings samples into the period before the first one, on an axis that goes on for ever.
+    fn bring_before(&mut self, endless: &Endless) {
+        for offset in &mut self.of_samples {
+            *offset = endless.before(*offset);
+        }
     }
 }
 
@@ -171,7 +178,7 @@ impl<S: Simd, const N: usize> Found<S, N> {
         let [columns, rows] = columns_and_rows(simd, pixels);
         let at = Positions::new(simd, [columns * side, rows * side], middle);
         let level = &samples.level;
-        if let (Some(x), Some(y)) = (&samples.x.endless, &samples.y.endless) {
+        if let Some([x, y]) = &samples.endless {
             let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];
             self.find_around(
                 simd,

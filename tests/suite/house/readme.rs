@@ -7,6 +7,7 @@ use std::process::Command;
 use rasterscope::post::PostProcess;
 use rasterscope::raster::{PixelCoverage, ResolveFilter, SamplePattern, ShadingRate};
 use rasterscope::render::Visualisation;
+use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{commands, picture};
 
 const START: &str = "<!-- keys: made by the command table, `BLESS=1 cargo test readme` writes it anew -->\n";
@@ -51,7 +52,15 @@ fn readme_measures_every_pattern_filter_and_shading_rate() {
                 .map(|shading| ("shading rate", shading.name())),
         )
         .chain([("coverage", PixelCoverage::Exact.name())])
-        .chain(PostProcess::ALL.iter().map(|process| ("post-process", process.name())));
+        .chain(PostProcess::ALL.iter().map(|process| ("post-process", process.name())))
+        .chain([("pattern", "msaa-16")])
+        .chain(LevelSampling::ALL.iter().map(|level| ("level sampling", level.name())))
+        .chain(
+            PixelSampling::ALL
+                .iter()
+                .skip(1)
+                .map(|sampling| ("pixel sampling", sampling.name())),
+        );
     for (axis, name) in rows {
         let row = format!("| {axis} `{name}` | ");
         assert!(table.contains(&row), "{row} is missing: benches/study writes it");

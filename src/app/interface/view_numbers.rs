@@ -2,9 +2,9 @@
 
 use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
-use egui::{Align, Color32, DragValue, Layout, TextEdit, Ui, vec2};
+use egui::{Align, Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
-use super::controls::{command_button, gave_up, heading, row};
+use super::controls::{command_button, gave_up, row};
 use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
@@ -38,8 +38,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, command
 
 /// The heading, and beside it the cards that measure what is seen.
 fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
     ui.horizontal(|ui| {
-        heading(ui, "View");
+        ui.label(RichText::new("View").strong().size(12.0));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             for (id, text) in [("board", "Board"), ("profile", "Profile"), ("spectrum", "Spectrum")] {

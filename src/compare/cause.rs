@@ -4,6 +4,7 @@ use std::fmt;
 use std::mem::discriminant;
 
 use crate::color::{ResolveSpace, linear_to_srgb, srgb_to_linear, unit_to_byte};
+use crate::geometry::View;
 use crate::post::PostProcess;
 use crate::raster::{Framebuffer, PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::Subject;
@@ -13,6 +14,8 @@ use crate::texture::{LevelSampling, PixelSampling};
 /// Something that another renderer does otherwise than ours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
+    /// The canvas fills the picture, without a margin and an outline: [`View::Canvas`].
+    Filled,
     /// Everything is moved to the right and down by these pixels.
     Shifted([f64; 2]),
     /// Samples lie in a corner of their cells, which are pixels where there is one sample in each. Shapes are then seen as
@@ -75,6 +78,7 @@ impl Cause {
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Filled => f.write_str("the canvas fills the picture, without a margin (view canvas)"),
             Self::Shifted([x, y]) => write!(f, "shifted by {x:+} pixels across and {y:+} down"),
             Self::Corners(CellCorner::UpperLeft) => {
                 f.write_str("samples in the upper left corners, not in the centres (+ 0.5 forgotten)")
@@ -118,10 +122,13 @@ impl fmt::Display for Cause {
     }
 }
 
-/// What is worth trying of how a subject is drawn, plain causes first.
-pub(super) fn drawn_otherwise(subject: &Subject<'_>) -> Vec<Cause> {
+/// What is worth trying of how a subject is drawn in a picture of `size` pixels, plain causes first.
+pub(super) fn drawn_otherwise(subject: &Subject<'_>, size: [u32; 2]) -> Vec<Cause> {
     let settings = subject.settings;
     let mut causes = Vec::new();
+    if View::Canvas.transform(subject.scene.canvas, size) != *subject.view {
+        causes.push(Cause::Filled);
+    }
     if settings.pattern.simplest(settings.sample_rate) == SamplePattern::Grid {
         causes.extend([CellCorner::UpperLeft, CellCorner::LowerRight].map(Cause::Corners));
     }

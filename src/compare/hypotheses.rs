@@ -113,7 +113,7 @@ impl<'a> Search<'a> {
 
     /// Tries single causes, then what goes with the best of them.
     fn run(&mut self) -> Option<()> {
-        let causes = drawn_otherwise(self.trial.subject);
+        let causes = drawn_otherwise(self.trial.subject, self.trial.size());
         let mut beam: Vec<Vec<Cause>> = vec![Vec::new()];
         for count in 0..MAX_CAUSES {
             let mut next: Vec<(u64, Vec<Cause>)> = Vec::new();
@@ -302,6 +302,7 @@ mod tests {
     use super::*;
     use crate::color::Rgba;
     use crate::geometry::View;
+    use crate::raster::PixelCoverage;
     use crate::render::{self, RenderSettings};
     use crate::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, ShapeId, TextureId};
     use crate::texture::Texture;
@@ -401,6 +402,36 @@ mod tests {
             "nothing to explain"
         );
         assert!((guess.explained() - 1.0).abs() < 1e-12, "nothing is unexplained");
+    }
+
+    #[test]
+    fn hypotheses_know_pictures_without_a_margin() {
+        let scene = scene();
+        let settings = RenderSettings::default();
+        let view = View::Canvas.transform(scene.canvas, SIZE);
+        for (coverage, causes) in [
+            (PixelCoverage::Sampled, &[Cause::Filled][..]),
+            (
+                PixelCoverage::Exact,
+                &[Cause::Filled, Cause::Coverage(PixelCoverage::Exact)],
+            ),
+        ] {
+            let drawn = RenderSettings {
+                coverage,
+                outline: false,
+                ..settings
+            };
+            let mut other = Framebuffer::new(SIZE[0], SIZE[1]);
+            render::draw(&scene, &view, &drawn, &mut other);
+            let subject = Subject {
+                scene: &scene,
+                view: &View::Default.transform(scene.canvas, SIZE),
+                settings: &settings,
+            };
+            let guess =
+                guess(&subject, &other, Duration::from_mins(2), &CancelToken::default()).expect("not cancelled");
+            assert_eq!((guess.causes.as_slice(), guess.after), (causes, 0), "{guess:?}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
-use crate::geometry::ViewTransform;
+use crate::geometry::{View, ViewTransform};
 use crate::post::PostProcess;
 use crate::raster::{Framebuffer, SampleRate};
 use crate::render::{self, CancelToken, RenderSettings, Subject};
@@ -38,11 +38,17 @@ impl Variant<'_> {
 }
 
 impl<'a> Trial<'a> {
+    /// Width and height of the other picture, and so of ours.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.other.width(), self.other.height()]
+    }
+
     /// The settings under causes.
     pub(super) fn settings(&self, causes: &[Cause]) -> RenderSettings {
         let mut settings = *self.subject.settings;
         for cause in causes {
             match *cause {
+                Cause::Filled => settings.outline = false,
                 Cause::Rules(rules) => settings.rules = rules,
                 Cause::SampleRate(rate) => settings.sample_rate = rate,
                 Cause::Resolve(space) => settings.resolve = space,
@@ -68,12 +74,16 @@ impl<'a> Trial<'a> {
         let Subject { scene, view, .. } = *self.subject;
         let mut variant = Variant {
             scene: Cow::Borrowed(scene),
-            view: *view,
+            view: if causes.contains(&Cause::Filled) {
+                View::Canvas.transform(scene.canvas, self.size())
+            } else {
+                *view
+            },
             settings: self.settings(causes),
         };
         for cause in causes {
             match *cause {
-                Cause::Shifted(pixels) => variant.view = moved(view, pixels),
+                Cause::Shifted(pixels) => variant.view = moved(&variant.view, pixels),
                 Cause::FlippedV => flip_v(&mut variant.scene.to_mut().primitives),
                 _ => {}
             }
@@ -87,7 +97,7 @@ impl<'a> Trial<'a> {
                 _ => continue,
             };
             // Samples to the upper left see what shapes to the lower right would show.
-            let by = view.scene_to_pixels.matrix2.inverse() * DVec2::splat(by);
+            let by = variant.view.scene_to_pixels.matrix2.inverse() * DVec2::splat(by);
             move_shapes(&mut variant.scene.to_mut().primitives, by);
         }
         variant
@@ -96,7 +106,8 @@ impl<'a> Trial<'a> {
     /// The picture under causes, before anything was done to the finished frame; `None` when cancelled.
     pub(super) fn draw(&self, causes: &[Cause]) -> Option<Framebuffer> {
         let variant = self.variant(causes);
-        let mut frame = Framebuffer::new(self.other.width(), self.other.height());
+        let [width, height] = self.size();
+        let mut frame = Framebuffer::new(width, height);
         render::draw_cancellable(
             &variant.scene,
             &variant.view,

@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, command
 
 /// The heading, and beside it the cards that measure what is seen.
 fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
-    ui.add_space(4.0);
+    ui.add_space(3.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new("View").strong().size(12.0));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

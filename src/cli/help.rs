@@ -25,10 +25,11 @@ const PATTERNS: &str = "<!-- patterns -->";
 const VISUALISATIONS: &str = "<!-- visualisations -->";
 
 /// The pages with their names.
-const PAGES: [(&str, &str); 8] = [
+const PAGES: [(&str, &str); 9] = [
     ("options", include_str!("help/options.md")),
     ("keys", include_str!("help/keys.md")),
     ("pixels", include_str!("help/pixels.md")),
+    ("values", include_str!("help/values.md")),
     ("figures", include_str!("help/figures.md")),
     ("records", include_str!("help/records.md")),
     ("lessons", include_str!("help/lessons.md")),
@@ -38,7 +39,7 @@ const PAGES: [(&str, &str); 8] = [
 
 /// Names all pages, at the end of the program's help.
 pub(super) const LIST: &str = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.\n\
-    The reference: `rasterscope help options`, `keys`, `pixels`, `figures`, `records`, `lessons`, `scripts`, `json`.\n\
+    The reference: `rasterscope help options`, `keys`, `pixels`, `values`, `figures`, `records`, `lessons`, `scripts`, `json`.\n\
     Man pages: `rasterscope help man [COMMAND] | man -l -`; completions: `rasterscope help completions SHELL`.";
 
 /// The page that the words of a command line ask for, if they ask for one.

@@ -32,11 +32,30 @@ pub(super) fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) ->
     .inner
 }
 
+/// A value that can be chosen.
+pub(super) struct Offered<'t, T> {
+    pub(super) value: T,
+    pub(super) text: &'t str,
+    /// What is told of it alone; empty where that says nothing more than the control's own tool tip.
+    pub(super) tip: String,
+}
+
 /// One of several values, side by side over the whole width; what was chosen, if it was just now.
 pub(super) fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
     tip: &str,
+    current: T,
+    values: &[(T, String)],
+) -> Option<T> {
+    choice_of(ui, name, &|_| tip.to_owned(), current, values)
+}
+
+/// The same with a tool tip for each value.
+pub(super) fn choice_of<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &dyn Fn(T) -> String,
     current: T,
     values: &[(T, String)],
 ) -> Option<T> {
@@ -52,7 +71,9 @@ pub(super) fn choice<T: Copy + PartialEq>(
                 .frame_when_inactive(true)
                 .min_size(vec2(width, CONTROL.y));
             let response = ui.add_sized([width, CONTROL.y], button);
-            let response = response.on_hover_text(tip).accessible_name(format!("{name}: {text}"));
+            let response = response
+                .on_hover_text(tip(*value))
+                .accessible_name(format!("{name}: {text}"));
             if response.clicked() && *value != current {
                 chosen = Some(*value);
             }
@@ -81,12 +102,12 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
     name: &str,
     tip: &str,
     current: T,
-    values: &[(T, &str)],
+    values: &[Offered<'_, T>],
 ) -> Option<T> {
     /// What padding and the arrow take of the width, beside what [`fitted`] leaves free.
     const ARROW: f32 = 26.0;
-    let shown = values.iter().find(|(value, _)| *value == current);
-    let shown = shown.map_or("", |(_, text)| text);
+    let shown = values.iter().find(|offered| offered.value == current);
+    let shown = shown.map_or("", |offered| offered.text);
     let mut chosen = None;
     ComboBox::from_id_salt(name)
         .width(ui.available_width())
@@ -94,8 +115,12 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
         .truncate()
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
-            for (value, text) in values {
-                if ui.selectable_label(*value == current, *text).clicked() && *value != current {
+            for Offered { value, text, tip } in values {
+                let mut line = ui.selectable_label(*value == current, *text);
+                if !tip.is_empty() {
+                    line = line.on_hover_text(tip);
+                }
+                if line.clicked() && *value != current {
                     chosen = Some(*value);
                 }
             }

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use egui::{Align, DragValue, Layout, RichText, Ui, vec2};
 
-use super::controls::{choice, command_button, drop_down, gave_up, row, tip};
+use super::controls::{Offered, choice, choice_of, command_button, drop_down, gave_up, row, tip};
 use super::look::CONTROL;
 use crate::scene::Dialect;
 use crate::viewer::picture::{self, About, Control, PanelRow};
 use crate::viewer::{
-    Command, Dialog, PictureSetting, PixelZoom, SceneEntry, Settings, Toggle, ViewCommand, Viewer, WindowCommand,
+    Command, Dialog, PictureSetting, PixelZoom, SceneEntry, Settings, Toggle, ValueNote, ViewCommand, Viewer,
+    WindowCommand,
 };
 
 /// Levels per point of dragging.
@@ -130,10 +131,12 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
         Control::List | Control::ShortList => {
             let current = setting.value(now);
             let offered = setting.offered(now);
-            let values: Vec<(&str, &str)> = offered
-                .iter()
-                .map(|value| (value.as_str(), setting.short(value)))
-                .collect();
+            let values = offered.iter().map(|value| Offered {
+                value: value.as_str(),
+                text: setting.short(value),
+                tip: setting.note(value).map_or_else(String::new, ValueNote::tip),
+            });
+            let values: Vec<Offered<'_, &str>> = values.collect();
             let list = ui.scope(|ui| {
                 ui.set_max_width(width);
                 drop_down(ui, panel.name, &shown.tip(), current.as_str(), &values)
@@ -164,7 +167,12 @@ fn buttons(ui: &mut Ui, shown: ShownSetting, values: &[String], now: &Settings, 
     let ShownSetting { setting, panel, .. } = shown;
     let current = setting.value(now);
     let values: Vec<(&str, String)> = values.iter().map(|value| (value.as_str(), value.clone())).collect();
-    let chosen = choice(ui, panel.name, &shown.tip(), current.as_str(), &values);
+    let of_all = shown.tip();
+    let tip = |value: &str| match setting.note(value) {
+        Some(note) => format!("{}\n{of_all}", note.tip()),
+        None => of_all.clone(),
+    };
+    let chosen = choice_of(ui, panel.name, &tip, current.as_str(), &values);
     commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
 }
 

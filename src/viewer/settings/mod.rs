@@ -1,6 +1,7 @@
 //! What a user sets: small types with their names in menus, scripts and the command line.
 
 pub(super) mod document;
+pub mod notes;
 pub mod patterns;
 pub mod picture;
 mod row;

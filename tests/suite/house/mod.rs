@@ -6,3 +6,4 @@ mod contributing;
 mod floors;
 mod fuzzing;
 mod readme;
+mod values;

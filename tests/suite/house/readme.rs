@@ -113,7 +113,7 @@ fn readme_is_short_and_names_every_page_that_the_program_prints() {
             assert!(pages.iter().any(|(page, _)| page == other), "{name} leads to {other}");
         }
     }
-    assert_eq!(pages.len(), 8, "all pages");
+    assert_eq!(pages.len(), 9, "all pages");
     let (_, keys) = pages.iter().find(|(name, _)| name == "keys").unwrap();
     assert!(keys.contains(commands::markdown().trim()), "the key table");
     let refused = Command::new(env!("CARGO_BIN_EXE_rasterscope"))

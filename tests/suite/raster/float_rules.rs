@@ -5,19 +5,10 @@ use rasterscope::inspect::{Setting, Verdict};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
-use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
-use rasterscope::viewer::gallery::{SCENES, Textures};
+use rasterscope::scene::Scene;
 
 use crate::support::explaining::{advised_by_default, explained};
-use crate::support::scenes::{at_rate, drawn};
-
-fn own(name: &str) -> Scene {
-    let own = SCENES.iter().find(|scene| scene.name == name).unwrap();
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    scene::read(own.document.as_bytes(), own.name, options, &Textures).unwrap()
-}
+use crate::support::scenes::{at_rate, drawn, gallery_scene};
 
 fn picture(scene: &Scene, size: [u32; 2], settings: &RenderSettings) -> Framebuffer {
     drawn(scene, &View::Default.transform(scene.canvas, size), settings, size)
@@ -38,7 +29,7 @@ fn different(a: &Framebuffer, b: &Framebuffer) -> Vec<[u32; 2]> {
 
 #[test]
 fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_close_them() {
-    let (scene, size) = (own("basic/test4.svg"), [1280, 800]);
+    let (scene, size) = (gallery_scene("basic/test4.svg"), [1280, 800]);
     let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
     let holes = different(&float, &standard);
     assert!(holes.len() > 300, "{} pixels differ", holes.len());
@@ -62,7 +53,7 @@ fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_cl
 /// More samples do not close a pinhole: the truth has none, and the standard rules are the first advice.
 #[test]
 fn float_rules_are_measured_against_a_truth_without_pinholes() {
-    let scene = own("basic/test4.svg");
+    let scene = gallery_scene("basic/test4.svg");
     let mut checked = 0;
     for size in [[1280, 800], [1366, 768]] {
         let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
@@ -91,7 +82,7 @@ fn float_rules_are_measured_against_a_truth_without_pinholes() {
 
 #[test]
 fn float_rules_leave_the_lines_of_the_colour_wheel_to_nobody() {
-    let (scene, size) = (own("basic/test7.svg"), [801, 801]);
+    let (scene, size) = (gallery_scene("basic/test7.svg"), [801, 801]);
     let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
     let white = |frame: &Framebuffer, x: u32, y: u32| frame.pixels()[(y * 801 + x) as usize] == 0xFFFF_FFFF;
     // In the middle the wheel itself is white.
@@ -122,7 +113,7 @@ fn float_rules_leave_the_lines_of_the_colour_wheel_to_nobody() {
 
 #[test]
 fn float_rules_leave_whole_frames_alike_however_they_are_drawn() {
-    let (scene, size) = (own("basic/test4.svg"), [203, 151]);
+    let (scene, size) = (gallery_scene("basic/test4.svg"), [203, 151]);
     for samples in [1, 4, 16] {
         let settings = RenderSettings {
             rules: Rules::Float,

@@ -8,11 +8,11 @@ use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, ReadOptions, Scene, read};
-use rasterscope::viewer::{gallery, patterns};
+use rasterscope::scene::{Dialect, Fill, Paint, PrimitiveKind, Scene};
+use rasterscope::viewer::patterns;
 
 use crate::support::brute_force;
-use crate::support::scenes::{drawn, one_to_one, scene};
+use crate::support::scenes::{drawn, gallery_scene, one_to_one, scene};
 
 /// Points of the lattice that samples are snapped to, along one side of a pixel.
 const LATTICE: f64 = 256.0;
@@ -330,18 +330,6 @@ fn pictures_of_every_pattern_are_those_of_one_thread() {
 }
 
 const STUDY: [u32; 2] = [1024, 1024];
-
-/// A scene of the gallery.
-fn gallery_scene(name: &str) -> Scene {
-    let scene = gallery::SCENES
-        .iter()
-        .find(|scene| scene.name == name)
-        .expect("a scene of the gallery");
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene")
-}
 
 /// A scene of the gallery, drawn at 1024 x 1024 in the default view.
 fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {

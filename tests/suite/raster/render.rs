@@ -7,11 +7,10 @@ use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::{CancelToken, RenderSettings, Subject, Visualisation, draw, draw_cancellable, replay};
-use rasterscope::scene::{Composite, DialectChoice, Fill, PrimitiveKind, ReadOptions, read};
-use rasterscope::viewer::gallery::{SCENES, Textures};
+use rasterscope::scene::{Composite, DialectChoice, Fill, PrimitiveKind};
 
 use crate::support::documents;
-use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
+use crate::support::scenes::{Fills, at_rate, drawn, gallery_scene, one_to_one, random, scene, triangle};
 
 #[test]
 fn render_does_not_depend_on_the_number_of_threads() {
@@ -269,14 +268,7 @@ fn replay_tells_the_samples_that_make_the_pixel() {
 
 #[test]
 fn study_of_half_the_light_is_what_it_says() {
-    let own = SCENES
-        .iter()
-        .find(|scene| scene.name == "study/17_half_the_light.svg")
-        .unwrap();
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    let scene = read(own.document.as_bytes(), own.name, options, &Textures).unwrap();
+    let scene = gallery_scene("study/17_half_the_light.svg");
     let size = [1024, 1024];
     // The square on the left, the stripes, the square on the right.
     let pixels = |resolve| {

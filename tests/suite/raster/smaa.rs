@@ -8,22 +8,12 @@ use rasterscope::post::{PostProcess, REACH, Values, smaa};
 use rasterscope::raster::{Framebuffer, Region};
 use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_onto, draw_regions, refine};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
-use rasterscope::viewer::gallery::{SCENES, Textures};
+use rasterscope::viewer::gallery::SCENES;
 
-use crate::support::scenes::{at_rate, drawn};
+use crate::support::scenes::{at_rate, drawn, gallery_scene};
 use crate::support::smaa::Picture;
 
 const SIZE: [u32; 2] = [200, 160];
-
-fn scene(name: &str) -> Scene {
-    let found = SCENES.iter().find(|scene| scene.name == name);
-    let found = found.expect("a scene of the gallery");
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    read(found.document.as_bytes(), name, options, &Textures).expect("a good document")
-}
 
 fn smoothed(samples: u32) -> RenderSettings {
     RenderSettings {
@@ -101,7 +91,7 @@ fn agrees(changed: &mut usize) {
 #[test]
 fn smaa_of_parts_is_that_of_the_whole_frame() {
     for (name, samples) in [("study/02_siemens_star.svg", 1), ("study/28_guessed_edges.svg", 4)] {
-        let scene = scene(name);
+        let scene = gallery_scene(name);
         let settings = smoothed(samples);
         let view = View::Default.transform(scene.canvas, SIZE);
         let whole = drawn(&scene, &view, &settings, SIZE);
@@ -155,7 +145,7 @@ fn smaa_of_parts_is_that_of_the_whole_frame() {
 fn smaa_leaves_the_truth_and_other_pictures_alone() {
     let settings = smoothed(1);
     assert_eq!(settings.truth().post_process, PostProcess::None, "samples are right");
-    let scene = scene(SCENES[1].name);
+    let scene = gallery_scene(SCENES[1].name);
     let view = View::Default.transform(scene.canvas, SIZE);
     let shown = |post_process| RenderSettings {
         post_process,
@@ -182,7 +172,7 @@ fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
 fn smaa_wins_along_long_edges_and_loses_where_samples_missed() {
     const WHOLE: [u32; 2] = [512, 384];
     let errors = |name: &str| {
-        let scene = scene(name);
+        let scene = gallery_scene(name);
         let view = View::Default.transform(scene.canvas, WHOLE);
         let truth = drawn(&scene, &view, &at_rate(64), WHOLE);
         [at_rate(1), smoothed(1), at_rate(4)].map(|settings| rmse(&drawn(&scene, &view, &settings, WHOLE), &truth))

@@ -5,25 +5,13 @@ use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, Subject};
-use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
+use rasterscope::scene::Scene;
 use rasterscope::texture::{FixedLevel, LevelOfDetail, LevelSampling, PixelSampling, Wrap};
-use rasterscope::viewer::gallery::{SCENES, Textures};
 
-use crate::support::scenes::{at_rate, drawn};
+use crate::support::scenes::{at_rate, drawn, gallery_scene};
 
 /// One pixel per unit.
 const SIZE: [u32; 2] = [512, 512];
-
-fn scene(name: &str) -> Scene {
-    let found = SCENES
-        .iter()
-        .find(|scene| scene.name == name)
-        .expect("a scene of the gallery");
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    read(found.document.as_bytes(), name, options, &Textures).expect("a good document")
-}
 
 fn view(scene: &Scene) -> View {
     View::At {
@@ -86,7 +74,7 @@ fn told(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) -> String {
 
 #[test]
 fn areas_are_told_instead_of_the_pixel_sampling_that_they_do_not_ask_for() {
-    let scene = scene("study/08_checker_fan.svg");
+    let scene = gallery_scene("study/08_checker_fan.svg");
     for (level_sampling, read) in [
         (LevelSampling::Ewa, "read by a Gaussian over an ellipse"),
         (LevelSampling::SummedArea, "read as the mean of a box"),
@@ -105,7 +93,7 @@ fn areas_are_told_instead_of_the_pixel_sampling_that_they_do_not_ask_for() {
 #[test]
 fn ellipses_win_where_footprints_lie_askew() {
     let errors = |name: &str| {
-        let scene = scene(name);
+        let scene = gallery_scene(name);
         let with = |level_sampling| RenderSettings {
             level_sampling,
             sample_rate: SampleRate::ONE,
@@ -129,7 +117,7 @@ fn ellipses_win_where_footprints_lie_askew() {
 
 #[test]
 fn kernels_win_where_few_texels_are_left_of_a_picture() {
-    let scene = scene("study/25_few_texels.svg");
+    let scene = gallery_scene("study/25_few_texels.svg");
     let truth = picture(&scene, &with(PixelSampling::Bilinear).truth());
     let error = |pixel: PixelSampling| {
         let settings = RenderSettings {
@@ -152,7 +140,7 @@ fn kernels_win_where_few_texels_are_left_of_a_picture() {
 
 #[test]
 fn kernels_lose_where_texels_have_edges() {
-    let scene = scene("study/26_hard_texels.svg");
+    let scene = gallery_scene("study/26_hard_texels.svg");
     // Green of the checker's squares, all of them a while inside; nearest has two values there.
     let greens = |pixel: PixelSampling| {
         let picture = picture(&scene, &with(pixel));
@@ -199,7 +187,7 @@ fn alike(a: u32, b: u32) -> bool {
 
 #[test]
 fn wraps_go_on_beyond_the_border() {
-    let scene = scene("study/27_beyond_the_border.svg");
+    let scene = gallery_scene("study/27_beyond_the_border.svg");
     let draw = |texture_wrap, pixel| {
         picture(
             &scene,
@@ -244,7 +232,7 @@ fn wraps_go_on_beyond_the_border() {
 
 #[test]
 fn explanations_tell_sixteen_texels_and_where_a_wrapped_point_is() {
-    let hard = scene("study/26_hard_texels.svg");
+    let hard = gallery_scene("study/26_hard_texels.svg");
     // Beside an edge, so that weights below zero count.
     let lines = told(&hard, &with(PixelSampling::CatmullRom), [103, 60]);
     let weights: Vec<f64> = lines
@@ -259,7 +247,7 @@ fn explanations_tell_sixteen_texels_and_where_a_wrapped_point_is() {
     let found = words(&explained(&hard, &with(PixelSampling::CatmullRom), [103, 60]));
     assert!(found.contains("read by the cubic kernel catmull-rom"), "{found}");
 
-    let beyond = scene("study/27_beyond_the_border.svg");
+    let beyond = gallery_scene("study/27_beyond_the_border.svg");
     let settings = |texture_wrap| RenderSettings {
         texture_wrap,
         ..with(PixelSampling::Bilinear)

@@ -9,10 +9,21 @@ use rasterscope::geometry::{FillRule, GradientShape, Polygon, View, ViewTransfor
 use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, draw};
 use rasterscope::scene::{
-    Composite, Dialect, Fill, Gradient, GradientId, MaskKind, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId,
-    SourceLocation, TextureId,
+    Composite, Dialect, DialectChoice, Fill, Gradient, GradientId, MaskKind, Paint, Primitive, PrimitiveKind,
+    ReadOptions, Scene, Shape, ShapeId, SourceLocation, TextureId, read,
 };
 use rasterscope::texture::{MipLevel, MipPyramid, Texture};
+use rasterscope::viewer::gallery;
+
+/// A scene of the gallery, such as `study/01_zone_plate.svg`.
+pub(crate) fn gallery_scene(name: &str) -> Scene {
+    let found = gallery::SCENES.iter().find(|scene| scene.name == name);
+    let found = found.expect("a scene of the gallery");
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    read(found.document.as_bytes(), name, options, &gallery::Textures).expect("a good document")
+}
 
 /// A scene of `kinds` on a canvas of `side x side`.
 pub(crate) fn scene(side: f64, kinds: Vec<PrimitiveKind>) -> Scene {

@@ -1,6 +1,6 @@
 //! What the reference says of values: each has a note, and wins and loses where the note says so, by the figures of its table.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::Path;
 
@@ -22,27 +22,24 @@ const OTHERS: [&str; 3] = ["visualise", "rules", "dialect"];
 
 #[test]
 fn every_named_value_says_what_it_does_and_costs() {
-    let mut notes = notes::all();
+    let mut told: BTreeSet<_> = notes::all().map(|note| (note.setting, note.value)).collect();
+    assert_eq!(told.len(), notes::all().count(), "one for each");
     for setting in picture::all().filter(|setting| !OTHERS.contains(&setting.option)) {
         let values = setting.offered(&Settings::default());
         for value in values.iter().filter(|_| !setting.names().is_empty()) {
-            let note = notes.next().expect("a note for every value");
-            assert_eq!(
-                (note.setting, note.value),
-                (setting.option, value.as_str()),
-                "in their order"
-            );
+            let note = setting.note(value).expect("a note for every value");
+            assert!(told.remove(&(setting.option, value.as_str())), "{value}");
             for text in [note.does, note.costs] {
                 assert!(
                     text.starts_with(|c: char| c.is_uppercase()) && !text.ends_with('.'),
                     "{value}: {text}"
                 );
             }
-            let tip = setting.note(value).expect("the same note").tip();
+            let tip = note.tip();
             assert!(tip.contains(note.costs) && tip.len() < 300, "{value}: {tip}");
         }
     }
-    assert!(notes.next().is_none(), "none without a value");
+    assert!(told.is_empty(), "none without a value: {told:?}");
 }
 
 /// Scenes and pictures that are drawn already.

@@ -84,7 +84,7 @@ impl Study {
     }
 }
 
-/// All of them, in the order of the settings and their values.
+/// All of them: of each setting in the order of its values.
 pub fn all() -> impl Iterator<Item = &'static ValueNote> {
     [samples::PATTERNS, samples::PIXELS, textures::NOTES]
         .into_iter()

@@ -114,7 +114,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
         "The 2 places of multisampling in Vulkan and Direct3D 11",
         "Little more than the grid's time with as many samples",
     )
-    .beside(["14_one_edge", "", "pattern grid, sample-rate 1"], ["33_nearly_level_edges", "", "pattern grid, sample-rate 1"]),
+    .beside(["14_one_edge", "", "pattern grid, sample-rate 1"], ["34_leaning_edges", "", "pattern grid, sample-rate 4"]),
     pattern(
         "msaa-4",
         "The 4 places of multisampling in Vulkan and Direct3D 11: the rotated grid",
@@ -263,6 +263,6 @@ pub(super) const PIXELS: &[ValueNote] = &[
     )
     .beside(
         ["28_guessed_edges", "", "post-process none"],
-        ["29_what_guesses_miss", "", "post-process none"],
+        ["29_what_guesses_miss", "", "post-process none, sample-rate 4"],
     ),
 ];

@@ -198,8 +198,8 @@ pub(super) const NOTES: &[ValueNote] = &[
             "lod-per pixel",
         ],
         [
-            "09_mip_lanes",
-            "sample-rate 4, level-sampling linear, pixel-sampling bilinear",
+            "08_checker_fan",
+            "sample-rate 4, level-sampling linear",
             "lod-per pixel",
         ],
     ),

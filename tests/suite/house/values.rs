@@ -28,7 +28,7 @@ fn every_named_value_says_what_it_does_and_costs() {
         let values = setting.offered(&Settings::default());
         for value in values.iter().filter(|_| !setting.names().is_empty()) {
             let note = setting.note(value).expect("a note for every value");
-            assert!(told.remove(&(setting.option, value.as_str())), "{value}");
+            assert!(told.remove(&(note.setting, note.value)), "{value}");
             for text in [note.does, note.costs] {
                 assert!(
                     text.starts_with(|c: char| c.is_uppercase()) && !text.ends_with('.'),

@@ -55,7 +55,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     ),
     pattern(
         "random",
-        "Samples lie anywhere, elsewhere in every pixel: no aliases, and the most noise",
+        "Samples lie anywhere, elsewhere in every pixel: aliases become noise, the most of all patterns",
         OWN_PLACES,
     )
     .beside(["04_picket_fence", "sample-rate 4", GRID],
@@ -63,7 +63,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     ),
     pattern(
         "halton",
-        "Radical inverses in bases 2 and 3: any number of samples lies evenly",
+        "Radical inverses in bases 2 and 3: any number of samples is possible",
         SAME_PLACES,
     )
     .beside(["13_thin_rays", "sample-rate 16", GRID],
@@ -71,7 +71,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     ),
     pattern(
         "hammersley",
-        "Evenly from left to right, radical inverses from top to bottom: the lowest discrepancy of all",
+        "Evenly from left to right, radical inverses from top to bottom: upright and level edges have a shade for every sample",
         SAME_PLACES,
     )
     .beside(["04_picket_fence", "sample-rate 16", GRID],
@@ -103,7 +103,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     ),
     pattern(
         "r2",
-        "Steps by the plastic number: any number of samples keeps its distance",
+        "Steps by the plastic number: any number of samples keeps apart",
         SAME_PLACES,
     )
     .beside(["04_picket_fence", "sample-rate 4", GRID],

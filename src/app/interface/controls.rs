@@ -1,6 +1,8 @@
 //! The few controls that the panels are built of; each has an accessible name and says its key in its tool tip.
 
-use egui::{Align, Button, Color32, ComboBox, Key, Layout, Response, RichText, TextStyle, Ui, vec2};
+use egui::{
+    Align, Button, Color32, ComboBox, Key, Layout, RectAlign, Response, RichText, TextStyle, Tooltip, Ui, vec2,
+};
 
 use super::look::CONTROL;
 use crate::viewer::{CommandSpec, commands};
@@ -116,9 +118,9 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             for Offered { value, text, tip } in values {
-                let mut line = ui.selectable_label(*value == current, *text);
+                let line = ui.selectable_label(*value == current, *text);
                 if !tip.is_empty() {
-                    line = line.on_hover_text(tip);
+                    tip_beside(Tooltip::for_enabled(&line), RectAlign::LEFT_START, tip);
                 }
                 if line.clicked() && *value != current {
                     chosen = Some(*value);
@@ -129,6 +131,12 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
         .on_hover_text(tip)
         .accessible_name(name.to_owned());
     chosen
+}
+
+/// A tool tip beside a line of a list, on the side where it covers none of the next lines.
+pub(super) fn tip_beside(mut tip: Tooltip<'_>, side: RectAlign, text: impl Into<RichText>) {
+    tip.popup = tip.popup.align(side);
+    tip.show(|ui| ui.label(text.into()));
 }
 
 /// Whether Esc gave up what was typed into a number's field: then the old number stays.

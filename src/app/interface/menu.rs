@@ -6,6 +6,7 @@
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, RectAlign, RichText, ScrollArea, Tooltip, Ui};
 
+use super::controls::tip_beside;
 use super::look;
 use super::standing;
 use crate::plain;
@@ -169,8 +170,12 @@ fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mu
         .add_enabled(standing.idle.is_none(), button)
         .accessible_name(spec.name);
     match standing.idle {
-        Some(why) => tip_beside(Tooltip::for_disabled(&response), format!("{}. {why}.", spec.help)),
-        None => tip_beside(Tooltip::for_enabled(&response), spec.help),
+        Some(why) => tip_beside(
+            Tooltip::for_disabled(&response),
+            RectAlign::RIGHT_START,
+            format!("{}. {why}.", spec.help),
+        ),
+        None => tip_beside(Tooltip::for_enabled(&response), RectAlign::RIGHT_START, spec.help),
     }
     if !response.clicked() {
         return false;
@@ -179,12 +184,6 @@ fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mu
     let asks = command.is_none();
     commands.extend(command);
     asks
-}
-
-/// A tool tip beside a line of a list, where it covers none of the next lines.
-fn tip_beside(mut tip: Tooltip<'_>, text: impl Into<RichText>) {
-    tip.popup = tip.popup.align(RectAlign::RIGHT_START);
-    tip.show(|ui| ui.label(text.into()));
 }
 
 /// With a capital at the start, as names in menus have it.

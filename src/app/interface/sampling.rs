@@ -167,10 +167,9 @@ fn buttons(ui: &mut Ui, shown: ShownSetting, values: &[String], now: &Settings, 
     let ShownSetting { setting, panel, .. } = shown;
     let current = setting.value(now);
     let values: Vec<(&str, String)> = values.iter().map(|value| (value.as_str(), value.clone())).collect();
-    let of_all = shown.tip();
     let tip = |value: &str| match setting.note(value) {
-        Some(note) => format!("{}\n{of_all}", note.tip()),
-        None => of_all.clone(),
+        Some(note) => shown.with_idle(note.tip()),
+        None => shown.tip(),
     };
     let chosen = choice_of(ui, panel.name, &tip, current.as_str(), &values);
     commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));

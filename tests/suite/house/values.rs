@@ -29,12 +29,12 @@ fn every_named_value_says_what_it_does_and_costs() {
         for value in values.iter().filter(|_| !setting.names().is_empty()) {
             let note = setting.note(value).expect("a note for every value");
             assert!(told.remove(&(note.setting, note.value)), "{value}");
-            for text in [note.does, note.costs] {
-                assert!(
-                    text.starts_with(|c: char| c.is_uppercase()) && !text.ends_with('.'),
-                    "{value}: {text}"
-                );
-            }
+            assert!(note.does.starts_with(char::is_uppercase), "{value}: {}", note.does);
+            assert!(note.costs.starts_with(char::is_lowercase), "{value}: {}", note.costs);
+            assert!(
+                ![note.does, note.costs].iter().any(|text| text.ends_with('.')),
+                "{value}: no full stops"
+            );
             let tip = note.tip();
             assert!(tip.contains(note.costs) && tip.len() < 300, "{value}: {tip}");
         }

@@ -16,7 +16,7 @@ pub struct ValueNote {
     pub value: &'static str,
     /// What it does: a sentence without its full stop.
     pub does: &'static str,
-    /// What it costs, likewise.
+    /// What it costs, to go behind "costs".
     pub costs: &'static str,
     /// How near it comes to the truth beside another value, where that can be measured.
     pub compared: Option<Comparison>,
@@ -70,7 +70,7 @@ impl ValueNote {
         let studies = self.compared.map_or_else(String::new, |Comparison { wins, loses }| {
             format!("\nWins on study/{}, loses on study/{}.", wins.scene, loses.scene)
         });
-        format!("{does}. {}.{studies}", self.costs)
+        format!("{does}.\nCosts {}.{studies}", self.costs)
     }
 }
 

@@ -3,9 +3,9 @@
 use super::ValueNote;
 
 /// What a pattern other than the grid costs that has one set of places.
-const SAME_PLACES: &str = "About four times the grid's time at 16 samples";
+const SAME_PLACES: &str = "about four times the grid's time at 16 samples";
 /// The same of patterns that place samples anew in each pixel.
-const OWN_PLACES: &str = "About five times the grid's time at 16 samples";
+const OWN_PLACES: &str = "about five times the grid's time at 16 samples";
 
 /// What patterns are compared with.
 const GRID: &str = "pattern grid";
@@ -19,7 +19,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     pattern(
         "grid",
         "Samples lie in the middles of n x n cells",
-        "The fastest, since rows of samples are decided at once",
+        "least: rows of samples are decided at once",
     ),
     pattern(
         "rotated",
@@ -112,7 +112,7 @@ pub(super) const PATTERNS: &[ValueNote] = &[
     pattern(
         "msaa-2",
         "The 2 places of multisampling in Vulkan and Direct3D 11",
-        "Little more than the grid's time with as many samples",
+        "little more than the grid's time with as many samples",
     )
     .beside(["14_one_edge", "", "pattern grid, sample-rate 1"], ["34_leaning_edges", "", "pattern grid, sample-rate 4"]),
     pattern(
@@ -153,13 +153,13 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "shading-rate",
         "sample",
         "Computes a colour at every sample, which is supersampling",
-        "As many colours as samples",
+        "as many colours as samples",
     ),
     ValueNote::new(
         "shading-rate",
         "centre",
         "Computes one colour per primitive and pixel, in its middle, which is multisampling: edges are smooth, textures alias",
-        "One colour for all samples, and a wrong one where the middle lies outside",
+        "one colour for all samples, and gives a wrong one where the middle lies outside",
     )
     .beside(
         ["23_one_colour_a_pixel", "sample-rate 16", "shading-rate sample, sample-rate 1"],
@@ -169,7 +169,7 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "shading-rate",
         "centroid",
         "Computes one colour per primitive and pixel, in the mean of the samples that it covers, so that it is never outside",
-        "One colour for all samples, and uneven steps of colour along edges",
+        "one colour for all samples, and gives uneven steps of colour along edges",
     )
     .beside(
         ["23_one_colour_a_pixel", "sample-rate 16", "shading-rate sample, sample-rate 1"],
@@ -179,13 +179,13 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "coverage",
         "sampled",
         "Samples tell how much of a pixel a primitive covers",
-        "More for every sample; no more than so many shades",
+        "time for every sample, and gives no more shades than samples",
     ),
     ValueNote::new(
         "coverage",
         "exact",
         "Paints by the exact area that a primitive covers, as renderers of vector graphics do",
-        "Less than twice the time of 16 samples, one colour per pixel, and seams between neighbours",
+        "less than twice the time of 16 samples, one colour per pixel, and seams between neighbours",
     )
     .beside(
         ["30_exact_greys", "sample-rate 16", "coverage sampled"],
@@ -195,71 +195,71 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "resolve-filter",
         "box",
         "Averages the pixel's own samples alone, each with the same weight",
-        "The fastest; details finer than a pixel leave false stripes",
+        "least, and lets details finer than a pixel leave false stripes",
     ),
     filter(
         "tent",
         "Weighs samples up to a pixel away, less the farther they are",
-        "Blurs a little, never rings; four times the time of the box at 16 samples",
+        "about four times the time of the box at 16 samples, and blurs a little; it never rings",
     ),
     filter(
         "gaussian",
         "Weighs samples up to 1.5 pixels away by a bell curve",
-        "Blurs, never rings; four times the time of the box at 16 samples",
+        "about four times the time of the box at 16 samples, and blurs; it never rings",
     ),
     filter(
         "b-spline",
         "Weighs samples up to two pixels away by a cubic bell: the fewest aliases of all",
-        "Blurs most, never rings; five times the time of the box at 16 samples",
+        "about five times the time of the box at 16 samples, and blurs most; it never rings",
     ),
     filter(
         "catmull-rom",
         "Weighs samples up to two pixels away, some below zero: a sharp cubic",
-        "Rings at edges; five times the time of the box at 16 samples",
+        "about five times the time of the box at 16 samples, and rings at edges",
     ),
     filter(
         "mitchell",
         "Weighs samples up to two pixels away, some below zero: a cubic between blur and ringing",
-        "Blurs and rings a little; five times the time of the box at 16 samples",
+        "about five times the time of the box at 16 samples, and blurs and rings a little",
     ),
     filter(
         "lanczos2",
         "A windowed sinc up to two pixels away: as sharp as Catmull-Rom's",
-        "Rings at edges; five times the time of the box at 16 samples",
+        "about five times the time of the box at 16 samples, and rings at edges",
     ),
     filter(
         "lanczos3",
         "A windowed sinc up to three pixels away: the sharpest",
-        "Rings most; six times the time of the box at 16 samples",
+        "about six times the time of the box at 16 samples, and rings most",
     ),
     filter(
         "blackman-harris",
         "A window up to 1.5 pixels away, close to a Gaussian that ends smoothly",
-        "Blurs a little, never rings; four times the time of the box at 16 samples",
+        "about four times the time of the box at 16 samples, and blurs a little; it never rings",
     ),
     ValueNote::new(
         "resolve",
         "stored",
         "Averages samples as they are stored, as most programs do",
-        "Nothing; thin light lines on dark ground come out too dark",
+        "nothing, and shows thin light lines on dark ground too dark",
     ),
     ValueNote::new(
         "resolve",
         "linear",
         "Averages samples as light, so that black and white lines make a brighter grey",
-        "About twice the time; thin dark lines on light ground come out paler",
+        "up to twice the time, and shows thin dark lines on light ground paler",
     ),
     ValueNote::new(
         "post-process",
         "none",
         "Leaves the pixels as the samples made them",
-        "Nothing",
+        "nothing",
     ),
     ValueNote::new(
         "post-process",
         "smaa",
         "Guesses from the finished pixels where edges were, and smooths them (SMAA), as games do",
-        "Some milliseconds at any rate; what samples missed stays missed, and fine detail blurs",
+        "some milliseconds at any rate, and blurs fine detail; what samples missed stays missed",
     )
     .beside(
         ["28_guessed_edges", "", "post-process none"],

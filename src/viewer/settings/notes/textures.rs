@@ -26,12 +26,12 @@ pub(super) const NOTES: &[ValueNote] = &[
     kernel(
         "nearest",
         "Takes the texel that the point lies in: hard squares where texels are large",
-        "The fastest",
+        "least",
     ),
     kernel(
         "bilinear",
         "Mixes the four texels around the point: smooth, with creases along rows of texels",
-        "Four texels a sample; soft where texels are large",
+        "four texels a sample, and is soft where texels are large",
     )
     .beside(
         ["06_zone_texture", "sample-rate 16", "pixel-sampling nearest"],
@@ -44,7 +44,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     kernel(
         "catmull-rom",
         "Weighs sixteen texels, some below zero: the sharpest cubic, which goes through all texels",
-        "Some four times the time of the nearest texel, and rings at edges",
+        "some four times the time of the nearest texel, and rings at edges",
     )
     .beside(
         [
@@ -61,7 +61,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     kernel(
         "b-spline",
         "Weighs sixteen texels, none below zero: the smoothest cubic",
-        "Some four times the time of the nearest texel, and blurs",
+        "some four times the time of the nearest texel, and blurs",
     )
     .beside(
         ["06_zone_texture", "sample-rate 16", "pixel-sampling bilinear"],
@@ -74,7 +74,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     kernel(
         "mitchell",
         "Weighs sixteen texels, some below zero: a cubic between blur and ringing",
-        "Some four times the time of the nearest texel, and blurs and rings a little",
+        "some four times the time of the nearest texel, and blurs and rings a little",
     )
     .beside(
         [
@@ -91,27 +91,27 @@ pub(super) const NOTES: &[ValueNote] = &[
     wrap(
         "clamp",
         "Goes on beyond a texture's border with its outermost texels",
-        "The fastest; streaks beyond the border",
+        "least, and leaves streaks beyond the border",
     ),
     wrap(
         "repeat",
         "Begins the texture anew beyond its border (study/27_beyond_the_border)",
-        "Little; the first texels take on the colour of the last ones",
+        "little, and lets the first texels take on the colour of the last ones",
     ),
     wrap(
         "mirror",
         "Turns the texture round beyond its border, so that no seam shows (study/27_beyond_the_border)",
-        "Little; two of four tiles are the wrong way round",
+        "little, and turns every second tile the wrong way round",
     ),
     level(
         "zero",
         "Reads the full texture at any distance",
-        "The fastest; what is far sparkles and aliases",
+        "least, and lets sparkle what is far",
     ),
     level(
         "nearest",
         "Reads the mip level whose texels are closest to the footprint's size",
-        "Little more; a visible step where the level changes",
+        "little, and shows a step where the level changes",
     )
     .beside(
         ["07_checker_floor", "", "level-sampling zero"],
@@ -120,7 +120,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     level(
         "linear",
         "Mixes the two mip levels around the footprint's size: no steps",
-        "Little more; blurs what is seen at a slant",
+        "little, and blurs what is seen at a slant",
     )
     .beside(
         ["07_checker_floor", "", "level-sampling zero"],
@@ -129,7 +129,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     level(
         "ewa",
         "Weighs all texels under the footprint's ellipse by a bell curve: the reference of filters",
-        "Some forty times level zero with one sample; blurs where texels are larger than pixels",
+        "some forty times level zero with one sample, and blurs where texels are larger than pixels",
     )
     .beside(
         ["32_checker_fan_turned", LINEAR, LEVELS],
@@ -138,7 +138,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     level(
         "summed-area",
         "Averages an upright box of texels exactly, from a table of sums",
-        "Some ten times level zero with one sample; blurs where a footprint lies askew",
+        "some ten times level zero with one sample, and blurs where a footprint lies askew",
     )
     .beside(
         ["06_zone_texture", LINEAR, LEVELS],
@@ -147,7 +147,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     level(
         "ripmap",
         "Reads levels that are narrowed in width and height apart: sharp along the axes",
-        "Some four times level zero with one sample, and four times the memory; blurs where a footprint lies askew",
+        "some four times level zero with one sample and four times its memory, and blurs where a footprint lies askew",
     )
     .beside(
         ["07_checker_floor", LINEAR, LEVELS],
@@ -157,13 +157,13 @@ pub(super) const NOTES: &[ValueNote] = &[
         "lod-by",
         "longer",
         "Chooses the mip level by the longer side of the footprint: never sparkles",
-        "Nothing; blurs what is seen at a slant",
+        "nothing, and blurs what is seen at a slant",
     ),
     ValueNote::new(
         "lod-by",
         "area",
         "Chooses the mip level by the footprint's area: sharper at a slant",
-        "Nothing; sparkles a little",
+        "nothing, and sparkles a little",
     )
     .beside(
         ["11_city_floor", LINEAR, BY_LONGER],
@@ -173,7 +173,7 @@ pub(super) const NOTES: &[ValueNote] = &[
         "lod-by",
         "shorter",
         "Chooses the mip level by the ellipse's shorter axis: as sharp as can be",
-        "Nothing; aliases along the longer axis",
+        "nothing, and aliases along the longer axis",
     )
     .beside(
         ["11_city_floor", LINEAR, BY_LONGER],
@@ -183,13 +183,13 @@ pub(super) const NOTES: &[ValueNote] = &[
         "lod-per",
         "pixel",
         "Takes a pixel's footprint for the mip level at any rate: as smooth as with one sample",
-        "Nothing; samples average what is smooth already",
+        "nothing, and lets samples average what is smooth already",
     ),
     ValueNote::new(
         "lod-per",
         "sample",
-        "Takes a sample's footprint: with more samples finer mip levels are read",
-        "Nothing; as much detail as the samples can carry, and some aliases",
+        "Takes a sample's footprint: with more samples finer mip levels are read, as fine as they can carry",
+        "nothing, and leaves some aliases",
     )
     .beside(
         [
@@ -206,12 +206,12 @@ pub(super) const NOTES: &[ValueNote] = &[
     pyramid(
         "stored",
         "Averages texels as they are stored for the coarser levels",
-        "Nothing; fine patterns come out too dark where samples are averaged as light",
+        "nothing, and makes fine patterns too dark where samples are averaged as light",
     ),
     pyramid(
         "linear",
         "Averages texels as light for the coarser levels, as samples are with resolve linear",
-        "Nothing while drawing; levels are made anew",
+        "nothing while drawing, and makes fine patterns too light where samples are averaged as stored",
     )
     .beside(
         [
@@ -225,13 +225,13 @@ pub(super) const NOTES: &[ValueNote] = &[
         "pyramid-filter",
         "box",
         "Averages two by two texels for each coarser one",
-        "Nothing; a little of what is too fine aliases",
+        "nothing, and lets a little of what is too fine alias",
     ),
     ValueNote::new(
         "pyramid-filter",
         "tent",
         "Weighs four by four texels for each coarser one: the softest, for a bias below zero",
-        "Nothing while drawing; blurs",
+        "nothing while drawing, and blurs",
     )
     .beside(
         [
@@ -245,7 +245,7 @@ pub(super) const NOTES: &[ValueNote] = &[
         "pyramid-filter",
         "kaiser",
         "Weighs a windowed sinc of texels for each coarser one: sharp, with few aliases",
-        "Nothing while drawing; rings a little at edges",
+        "nothing while drawing, and rings a little at edges",
     )
     .beside(
         ["06_zone_texture", LINEAR, "pyramid-filter box"],

@@ -134,6 +134,9 @@ fn values(ui: &mut Ui, viewer: &Viewer, setting: &'static PictureSetting) -> Opt
         let short = setting.short(value);
         let response = ui.selectable_label(*value == now, short);
         let response = response.accessible_name(format!("{}: {short}", setting.label));
+        if let Some(note) = setting.note(value) {
+            tip_beside(Tooltip::for_enabled(&response), RectAlign::RIGHT_START, note.tip());
+        }
         if response.clicked() {
             chosen = setting.to(value).ok().map(Command::Set);
             ui.close();

@@ -334,3 +334,34 @@ fn lists_lie_beside_the_lists_that_they_open_from() {
         }
     }
 }
+
+#[test]
+fn values_tell_what_they_do_and_cost_while_the_pointer_rests_on_them() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    for (lists, line) in [
+        (&["Sample pattern"][..], "sobol"),
+        (&["Menu", Group::Sampling.name(), "Pattern"][..], "pattern: sobol"),
+    ] {
+        assert!(!says(&mut session, "Costs about"), "nothing is hovered");
+        for name in lists {
+            click_on(&mut session, name);
+        }
+        let at = place_of(&mut session, line);
+        session.pointer(Some(at));
+        session.wait(Duration::from_secs(1));
+        assert!(says(&mut session, "scrambled otherwise"), "{line}: what it does");
+        assert!(says(&mut session, "Costs about"), "{line}: and costs");
+        assert!(
+            says(&mut session, "Wins on study/33_nearly_level_edges"),
+            "{line}: and where"
+        );
+        while session.interface.list_is_open() {
+            key(&mut session, "Escape");
+            session.settle();
+        }
+        session.pointer(Some(dvec2(400.0, 300.0)));
+        session.wait(Duration::from_secs(1));
+    }
+}

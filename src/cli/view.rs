@@ -77,11 +77,8 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
 
 #[cfg(feature = "window")]
 fn settings(options: &ViewerOptions) -> crate::viewer::Settings {
-    crate::viewer::Settings {
-        render: options.sampling.settings(options.framing.view),
-        dialect: options.sampling.reading(),
-        ..Default::default()
-    }
+    let sampling = &options.sampling;
+    crate::viewer::Settings::of(sampling.settings(options.framing.view), sampling.reading())
 }
 
 /// Says that there is no window in this build.

@@ -32,11 +32,7 @@ impl BoardEntry {
 
     /// The same as the settings that menus change; those that no picture shows have their defaults.
     fn settings(self) -> Settings {
-        Settings {
-            render: self.render,
-            dialect: self.dialect,
-            ..Settings::default()
-        }
+        Settings::of(self.render, self.dialect)
     }
 
     /// The same with changes such as `sample-rate 16, pattern sobol`; [`AS_A`] changes nothing.

@@ -85,11 +85,7 @@ impl PictureSpec {
 
     /// The settings that differ from their defaults: names and values of the command line's options.
     pub fn settings(&self) -> Vec<(&'static str, String)> {
-        let settings = Settings {
-            render: self.render,
-            dialect: self.dialect,
-            ..Settings::default()
-        };
+        let settings = Settings::of(self.render, self.dialect);
         let changed = picture::all().filter(|setting| !setting.is_default(&settings));
         changed
             .map(|setting| (setting.option, setting.value(&settings)))

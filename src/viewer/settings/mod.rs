@@ -8,6 +8,7 @@ mod row;
 mod table;
 pub(super) mod values;
 
+use crate::raster::SamplePattern;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
 
@@ -18,6 +19,8 @@ pub struct Settings {
     pub render: RenderSettings,
     /// In which dialect scenes are read.
     pub dialect: DialectChoice,
+    /// The custom pattern that was chosen last and does not come with the program: lists go on offering it.
+    pub own_pattern: Option<SamplePattern>,
     /// Window pixels per frame pixel.
     pub pixel_zoom: PixelZoom,
     /// Whether coarse pictures may stand in for slow ones while the view moves. Only windows show them: whatever is
@@ -30,8 +33,21 @@ impl Default for Settings {
         Self {
             render: RenderSettings::default(),
             dialect: DialectChoice::default(),
+            own_pattern: None,
             pixel_zoom: PixelZoom::default(),
             progressive: true,
+        }
+    }
+}
+
+impl Settings {
+    /// How a picture is drawn and its document read; what no picture shows has its default.
+    pub fn of(render: RenderSettings, dialect: DialectChoice) -> Self {
+        Self {
+            render,
+            dialect,
+            own_pattern: Some(render.pattern).filter(|pattern| patterns::is_own(*pattern)),
+            ..Self::default()
         }
     }
 }

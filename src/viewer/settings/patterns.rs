@@ -72,10 +72,15 @@ fn is_free(pattern: &'static CustomPattern) -> bool {
     own.all(|own| own.name() != pattern.name() || *own == SamplePattern::Custom(pattern))
 }
 
+/// Whether a pattern is custom and does not come with the program.
+pub(super) fn is_own(pattern: SamplePattern) -> bool {
+    matches!(pattern, SamplePattern::Custom(_)) && !shipped().contains(&pattern)
+}
+
 /// The text that [`named`] reads.
 pub(super) fn value_of(pattern: SamplePattern) -> String {
     match pattern {
-        SamplePattern::Custom(custom) if !shipped().contains(&pattern) => custom.to_string(),
+        SamplePattern::Custom(custom) if is_own(pattern) => custom.to_string(),
         pattern => pattern.name().to_owned(),
     }
 }
@@ -244,6 +249,8 @@ fn words(value: &Value<'_>) -> Found<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::SampleRate;
+    use crate::viewer::settings::{Settings, picture};
 
     #[test]
     fn patterns_that_come_with_the_program_are_read() {
@@ -262,6 +269,37 @@ mod tests {
             panic!("a custom one");
         };
         assert_eq!(eight.samples()[0].place, [144, 80], "9/16 and 5/16");
+    }
+
+    #[test]
+    fn own_pattern_stays_in_the_list() {
+        let pattern = picture::find("pattern").expect("a setting");
+        let own = "own:128/26+0/255x3";
+        let mut settings = Settings::default();
+        assert!(!pattern.offered(&settings).contains(&own.to_owned()), "unknown yet");
+        for value in [own, "grid", "msaa-8"] {
+            assert!(pattern.set(&mut settings, value), "{value}");
+            assert_eq!(
+                pattern.offered(&settings).last().map(String::as_str),
+                Some(own),
+                "beside {value}"
+            );
+        }
+        let given = Settings::of(settings.render, settings.dialect);
+        assert!(
+            !pattern.offered(&given).contains(&own.to_owned()),
+            "as a command line begins"
+        );
+        assert!(pattern.set(&mut settings, own), "once more");
+        let given = Settings::of(settings.render, settings.dialect);
+        assert_eq!(given.own_pattern, Some(settings.render.pattern), "named by it");
+        // The key goes from the last pattern with as many samples to it, and on to the first.
+        settings.render.sample_rate = SampleRate::new(4).expect("a rate");
+        assert!(pattern.set(&mut settings, "msaa-4"), "4 samples, too");
+        for next in [own, "grid"] {
+            pattern.step(1.0).apply(&mut settings);
+            assert_eq!(pattern.value(&settings), next, "in turn");
+        }
     }
 
     #[test]

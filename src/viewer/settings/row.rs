@@ -56,6 +56,8 @@ pub enum Values {
         names: fn() -> Vec<&'static str>,
         /// Those that menus, lists and help have, too.
         more: fn() -> Vec<&'static str>,
+        /// One more that they go on offering once it was chosen.
+        kept: fn(&Settings) -> Option<String>,
         /// What others look like.
         form: &'static str,
         /// What people are shown of a value: its name.
@@ -258,11 +260,12 @@ impl PictureSetting {
     pub fn offered(&self, settings: &Settings) -> Vec<String> {
         match self.values {
             Values::Named(names) => names().into_iter().map(str::to_owned).collect(),
-            Values::NamedOrWritten { names, more, .. } => {
+            Values::NamedOrWritten { names, more, kept, .. } => {
                 let mut all: Vec<String> = names().into_iter().chain(more()).map(str::to_owned).collect();
-                let current = self.value(settings);
-                if !all.contains(&current) {
-                    all.push(current);
+                for value in kept(settings).into_iter().chain([self.value(settings)]) {
+                    if !all.contains(&value) {
+                        all.push(value);
+                    }
                 }
                 all
             }

@@ -67,6 +67,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
             more: patterns::shipped_names,
             form: patterns::FORM,
             short: patterns::name_in,
+            kept: |settings| settings.own_pattern.map(patterns::value_of),
             is_file: patterns::is_file_name,
             of_file: patterns::of_file,
         },
@@ -87,16 +88,18 @@ pub(super) const ROWS: &[PictureSetting] = &[
         idle: idle::samples,
         get: |settings| patterns::value_of(settings.render.pattern),
         set: |settings, text| {
-            settings.render.pattern = patterns::named(text)?;
+            let pattern = patterns::named(text)?;
+            settings.render.pattern = pattern;
+            if patterns::is_own(pattern) {
+                settings.own_pattern = Some(pattern);
+            }
             Some(())
         },
         step: |settings, by| {
             // After those that take any rate come the custom ones that take this one.
             let rate = settings.render.sample_rate;
-            let fitting = patterns::shipped()
-                .iter()
-                .copied()
-                .filter(|pattern| pattern.takes(rate));
+            let custom = patterns::shipped().iter().copied().chain(settings.own_pattern);
+            let fitting = custom.filter(|pattern| pattern.takes(rate));
             let all: Vec<SamplePattern> = SamplePattern::ALL.into_iter().chain(fitting).collect();
             let now = settings.render.pattern;
             settings.render.pattern = match all.contains(&now) {

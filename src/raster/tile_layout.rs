@@ -29,8 +29,11 @@ pub(crate) struct TileLayout {
 
 impl TileLayout {
     /// Tiles whose samples, when every pixel is split, still stay in a core's cache: at most 260 kB at any rate.
-    pub(crate) fn for_rate(rate: SampleRate, size: [u32; 2]) -> Self {
+    ///
+    /// With a `margin` they are narrower, so that the margins, too, fit a row of surfaces.
+    pub(crate) fn for_rate(rate: SampleRate, margin: u32, size: [u32; 2]) -> Self {
         let sides_log2 = match rate.side() {
+            1..=4 if margin > 0 => [5, 5],
             1..=4 => [6, 5],
             5 | 6 => [5, 4],
             7 | 8 => [4, 4],
@@ -72,6 +75,11 @@ impl TileLayout {
             x: wider(pixels.x),
             y: wider(pixels.y),
         }
+    }
+
+    /// Sides of what is painted for a whole tile in pixels.
+    pub(crate) fn painted_sides(self) -> [usize; 2] {
+        [self.width_log2, self.height_log2].map(|log2| (1_usize << log2) + 2 * self.margin as usize)
     }
 
     /// Sides of a tile in pixels, as powers of two.

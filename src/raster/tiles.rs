@@ -166,16 +166,24 @@ impl DisplayList<'_> {
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
             Method::Visibility => {
-                painters.visibility.begin(block.rect, background);
+                let painted = self.context.tiles.painted(block.rect);
+                painters.visibility.begin(painted, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .visibility
                         .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
                 }
                 resolving = start.map(|_| Instant::now());
-                // Shading comes in between, and is none of it.
-                let shading = painters.visibility.resolve(block, start.is_some());
-                resolving = resolving.and_then(|start| start.checked_add(shading));
+                if self.settings.filter.is_plain() {
+                    // Shading comes in between, and is none of it.
+                    let shading = painters.visibility.resolve(block, start.is_some());
+                    resolving = resolving.and_then(|start| start.checked_add(shading));
+                } else {
+                    painters
+                        .visibility
+                        .put_colors(painters.per_sample.begin_painted(painted));
+                    painters.per_sample.resolve_tile(block);
+                }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.visibility.samples_shaded);
             }
             Method::PerSample => {

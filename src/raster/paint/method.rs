@@ -8,6 +8,7 @@ use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
 use crate::raster::resolve::SizedFilter;
 use crate::raster::shading::sources::PaintSources;
+use crate::raster::surface_id::{MAX_SURFACES, ROW};
 use crate::raster::{SampleRate, ShadingRate};
 use crate::rules::Rules;
 
@@ -105,7 +106,11 @@ impl Kinds {
         let rate_one = context.rate == SampleRate::ONE;
         if !filter.is_plain() {
             // What neighbours weigh, too, takes the colour of every sample.
-            return Method::PerSample;
+            return if all_flat() && has_room(context) {
+                Method::Visibility
+            } else {
+                Method::PerSample
+            };
         }
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
             return if context.rate.is_square() && (all_flat() || all_opaque()) {
@@ -129,6 +134,13 @@ impl Kinds {
             Method::PerSample
         }
     }
+}
+
+/// Whether a tile of surfaces holds what is painted for one, its margin too.
+fn has_room(context: &ListContext) -> bool {
+    let [width, height] = context.tiles.painted_sides();
+    let samples = width * height * context.rate.samples() as usize;
+    context.rate.is_square() && width <= ROW && samples <= MAX_SURFACES / 2
 }
 
 /// Whether the sum of a pixel's samples that show nothing else is that of their rounded colours.

@@ -99,6 +99,13 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
+    /// Where what the samples of a tile show may be put that was painted elsewhere.
+    pub(crate) fn begin_painted(&mut self, rect: SpanRect) -> &mut SampleColors {
+        let tile = self.layers.restart();
+        tile.reset(rect, Premultiplied16::TRANSPARENT);
+        tile
+    }
+
     /// Resolves the finished tile, of which `block` are the pixels that it has in the frame.
     pub(crate) fn resolve_tile(&mut self, block: &mut PixelBlock<'_>) {
         if let Some(wide) = &mut self.wide {

@@ -98,6 +98,22 @@ impl SampleColors {
         self.split.resize(pixels, false);
     }
 
+    /// Lets the pixels of row `y` of the frame in these columns of the tile show one colour instead of what they did.
+    #[inline]
+    pub(in crate::raster) fn put(&mut self, y: i32, columns: Range<usize>, color: Premultiplied16) {
+        let first = self.index(self.rect.x.start, y);
+        let pixels = first + columns.start..first + columns.end;
+        self.whole[pixels.clone()].fill(color);
+        self.split[pixels].fill(false);
+    }
+
+    /// The samples of the pixel of row `y` of the frame in a column of the tile; all of them are to be replaced.
+    #[inline]
+    pub(in crate::raster) fn samples_to_put(&mut self, y: i32, column: usize) -> &mut [Premultiplied16] {
+        let pixel = self.index(self.rect.x.start, y) + column;
+        self.split_pixels(pixel..pixel + 1, true)
+    }
+
     /// Index of the pixel in column `x` of row `y` of the frame, which must lie in the tile.
     #[inline]
     fn index(&self, x: i32, y: i32) -> usize {

@@ -12,6 +12,7 @@ pub(in crate::raster) mod packed;
 pub(in crate::raster) mod painter;
 mod resolve;
 mod resolve_by_samples;
+mod sample_colors;
 pub(in crate::raster) mod shading_queue;
 pub(in crate::raster) mod surface_color;
 pub(in crate::raster) mod surfaces;

@@ -156,7 +156,11 @@ mod tests {
                 assert!(surface == frame.pixels() && kept == frame, "the same on a surface");
                 Ok(frame)
             };
-            let expected = draw(TileLayout::for_rate(settings.sampled().0, settings.filter.margin(), SIZE))?;
+            let expected = draw(TileLayout::for_rate(
+                settings.sampled().0,
+                settings.filter.margin(),
+                SIZE,
+            ))?;
             for sides in [[0, 0], [3, 3], [2, 4], [5, 1], [6, 7]] {
                 assert!(
                     draw(TileLayout::new(sides, SIZE))? == expected,

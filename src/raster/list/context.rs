@@ -39,7 +39,11 @@ pub struct ListContext {
 impl ListContext {
     /// For a frame of `size` pixels.
     pub fn new(size: [u32; 2], settings: &RasterSettings) -> Self {
-        Self::with_tiles(size, settings, TileLayout::for_rate(settings.sampled().0, settings.filter.margin(), size))
+        Self::with_tiles(
+            size,
+            settings,
+            TileLayout::for_rate(settings.sampled().0, settings.filter.margin(), size),
+        )
     }
 
     pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {

@@ -98,20 +98,20 @@ impl SampleColors {
         self.split.resize(pixels, false);
     }
 
-    /// Lets the pixels of row `y` of the frame in these columns of the tile show one colour instead of what they did.
-    #[inline]
-    pub(in crate::raster) fn put(&mut self, y: i32, columns: Range<usize>, color: Premultiplied16) {
+    /// Row `y` of the frame, to be replaced: the colours of pixels that show one, which pixels show several, and the samples of all.
+    pub(in crate::raster) fn row_to_put(
+        &mut self,
+        y: i32,
+    ) -> (&mut [Premultiplied16], &mut [bool], &mut [Premultiplied16]) {
+        self.ensure_samples();
         let first = self.index(self.rect.x.start, y);
-        let pixels = first + columns.start..first + columns.end;
-        self.whole[pixels.clone()].fill(color);
-        self.split[pixels].fill(false);
-    }
-
-    /// The samples of the pixel of row `y` of the frame in a column of the tile; all of them are to be replaced.
-    #[inline]
-    pub(in crate::raster) fn samples_to_put(&mut self, y: i32, column: usize) -> &mut [Premultiplied16] {
-        let pixel = self.index(self.rect.x.start, y) + column;
-        self.split_pixels(pixel..pixel + 1, true)
+        let pixels = first..first + self.width;
+        let samples = pixels.start * self.per_pixel..pixels.end * self.per_pixel;
+        (
+            &mut self.whole[pixels.clone()],
+            &mut self.split[pixels],
+            &mut self.samples[samples],
+        )
     }
 
     /// Index of the pixel in column `x` of row `y` of the frame, which must lie in the tile.

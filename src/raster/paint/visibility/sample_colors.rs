@@ -5,6 +5,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::color::Premultiplied16;
 use crate::raster::paint::sample_colors::SampleColors;
 use crate::raster::paint::visibility::buffer::Run;
+use crate::raster::paint::visibility::packed::{PER_WORD, lanes};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::simd;
 
@@ -23,23 +24,31 @@ fn put_colors<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, colors: &mut Sa
         #[inline(always)]
         || {
             let (tile, surfaces) = (painter.layers.base(), &painter.surfaces);
+            let per_pixel = colors.per_pixel();
             for y in tile.rect.y.start..tile.rect.y.end {
+                let (whole, split, samples) = colors.row_to_put(y);
                 let row_of_two = tile.two_surfaces(y);
                 for (run, range) in tile.runs(y) {
+                    split[range.clone()].fill(!matches!(run, Run::Whole(_)));
+                    let samples = samples[range.start * per_pixel..range.end * per_pixel].chunks_exact_mut(per_pixel);
                     match run {
-                        Run::Whole(surface) => colors.put(y, range, surfaces.get(surface).flat),
+                        Run::Whole(surface) => whole[range].fill(surfaces.get(surface).flat),
                         Run::TwoSurfacePixels => {
-                            for x in range {
+                            for (x, samples) in range.zip(samples) {
                                 let two = row_of_two.get(x);
-                                let [first, second] = [two.first, two.second].map(|surface| surfaces.get(surface).flat);
-                                choose(two.mask, [first, second], colors.samples_to_put(y, x));
+                                let both = [two.first, two.second].map(|surface| surfaces.get(surface).flat);
+                                choose(two.mask, both, samples);
                             }
                         }
                         Run::Split => {
-                            for x in range {
-                                let shown = tile.samples(x, y).map(|surface| surfaces.get(surface).flat);
-                                for (sample, color) in colors.samples_to_put(y, x).iter_mut().zip(shown) {
-                                    *sample = color;
+                            for (x, samples) in range.zip(samples) {
+                                let shown = samples.chunks_mut(tile.side()).zip(tile.rows_of_words(x, y));
+                                for (samples, words) in shown {
+                                    for (samples, word) in samples.chunks_mut(PER_WORD).zip(words) {
+                                        for (sample, surface) in samples.iter_mut().zip(lanes(*word)) {
+                                            *sample = surfaces.get(surface).flat;
+                                        }
+                                    }
                                 }
                             }
                         }
@@ -54,7 +63,17 @@ fn put_colors<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, colors: &mut Sa
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn choose(mask: u64, [first, second]: [Premultiplied16; 2], samples: &mut [Premultiplied16]) {
-    for (sample, bit) in samples.iter_mut().zip(0_u32..) {
-        *sample = if mask >> (bit % 64) & 1 == 1 { second } else { first };
+    let color = |bits: u64| if bits & 1 == 1 { second } else { first };
+    let (eights, rest) = samples.as_chunks_mut::<8>();
+    let mut bits = mask;
+    // Written out eight at a time, which compilers make vectors of.
+    for [a, b, c, d, e, f, g, h] in eights {
+        (*a, *b, *c, *d) = (color(bits), color(bits >> 1), color(bits >> 2), color(bits >> 3));
+        (*e, *f, *g, *h) = (color(bits >> 4), color(bits >> 5), color(bits >> 6), color(bits >> 7));
+        bits >>= 8;
+    }
+    for sample in rest {
+        *sample = color(bits);
+        bits >>= 1;
     }
 }

@@ -6,9 +6,13 @@
 //!
 //! ```text
 //!    samples of a row    r0 g0 b0 a0  r1 g1 b1 a1  ...
-//!    as they are kept    r0 r1 g0 g1  b0 b1 a0 a1  ...       two columns side by side
+//!    as they are summed  r0 r1 g0 g1  b0 b1 a0 a1  ...       two columns side by side
 //!    times the weights   w0 w1 w0 w1  w0 w1 w0 w1  ...
 //! ```
+//!
+//! A pixel that shows one colour weighs as much in each of its rows, so those around a pixel are summed up once; to that each
+//! split pixel adds its rows, in blocks of 4 x 4 samples. The sums of rows are cut into halves of 16 bits, of which the lower
+//! ones are moved like stored values, so that dot products sum them up once more.
 
 #![expect(
     clippy::inline_always,
@@ -18,7 +22,7 @@
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x16, i32x4, i32x8};
+use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x8, u32x16, u64x2, u64x8};
 
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::frame::block::PixelBlock;
@@ -28,39 +32,40 @@ use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::rules::Rules;
 use crate::simd;
 
-/// By how much stored values are moved, so that they fit 16 bits with a sign.
-const MOVED: i32 = 1 << 15;
-/// Numbers of two samples that lie side by side.
-const PAIR: usize = 8;
-/// Numbers that are multiplied at once: of two pairs.
-const AT_ONCE: usize = 2 * PAIR;
-/// Rows of samples that are summed up together, and pixels.
-const ROWS: usize = 4;
+/// By how much numbers are moved, so that they fit 16 bits with a sign.
+const MOVED: u16 = 1 << 15;
+/// Rows and columns of samples that are summed up together.
+const BLOCK: usize = 4;
+/// The most of these along the side of a pixel: weights of more columns add up to too much.
+const MOST_BLOCKS: usize = 2;
+/// Pixels that are summed up together.
 const TOGETHER: usize = 4;
+/// Numbers that are multiplied at once.
+const AT_ONCE: usize = 32;
 
 /// Sums up weighted samples, reusing its memory.
 #[derive(Debug)]
 pub(super) struct DotSums {
     rules: Rules,
-    /// Samples along the side of a pixel, and the pairs of columns that they are.
+    /// Samples along the side of a pixel, and the blocks that they are.
     side: usize,
-    pairs: usize,
+    blocks: usize,
     /// Pixels on each side.
     margin: usize,
-    /// Pairs around a pixel that weigh nothing on the left, and what the others weigh.
-    first_pair: usize,
-    weights: Vec<i16>,
-    /// Rows around a pixel that weigh nothing at the top, and what the others weigh.
-    first_row: usize,
-    rows: Vec<f64>,
+    /// For each block of columns around a pixel what the first two weigh, and the others, once for each channel.
+    columns: Vec<[[i16; 2 * BLOCK]; 2]>,
+    /// For each block of rows what they weigh, in the order of `halves`.
+    rows: Vec<[i16; AT_ONCE]>,
     /// What the columns of each pixel around one weigh together.
     of_pixels: Vec<i32>,
     mean: Mean,
-    /// The row of pixels at work, each of its rows of samples after the other: so many numbers each.
-    samples: Vec<i16>,
-    stride: usize,
-    /// The sums of the last rows of samples, so many to a row, each row in the place of the one that is no longer needed.
-    sums: Vec<[f64; 4]>,
+    /// The row of pixels at work: channels of those that show one colour, moved, and nothing for others.
+    whole: Vec<[i32; 4]>,
+    /// For each pixel of the tile, block by block, the sums of its rows of samples: four channels each.
+    sums: Vec<[i32; 4 * BLOCK]>,
+    /// The same of the last rows of pixels, each in the place of the one that is no longer needed: first the lower halves, of the
+    /// first and third row side by side, and of the second and fourth; then the higher ones.
+    halves: Vec<[i16; AT_ONCE]>,
     width: usize,
 }
 
@@ -69,7 +74,7 @@ pub(super) struct DotSums {
 struct Mean {
     /// What all samples weigh together.
     total: i64,
-    /// What was taken from the sum because values were moved.
+    /// What was taken from the sum because numbers were moved.
     moved: f64,
     /// The sum of opaque samples' alpha.
     one: f64,
@@ -86,35 +91,32 @@ impl DotSums {
         let of_pixels = (-margin..=margin).map(|beside| weights.of_pixel(beside));
         let all: Vec<i32> = of_pixels.clone().flatten().copied().collect();
         let most: i32 = all.iter().map(|weight| weight.abs()).sum();
-        most.checked_mul(MOVED)?;
+        most.checked_mul(MOVED.into())?;
         let narrow: Vec<i16> = all
             .iter()
             .map(|weight| i16::try_from(*weight).ok())
             .collect::<Option<_>>()?;
         let side = side.cast_unsigned() as usize;
-        let pairs = narrow.chunks(side).flat_map(|columns| columns.chunks(2));
-        let pairs: Vec<[i16; 2]> = pairs
-            .map(|pair| [0, 1].map(|at| pair.get(at).copied().unwrap_or(0)))
-            .collect();
-        let (first_pair, inner) = trimmed(&pairs, &[0, 0]);
-        let mut columns: Vec<i16> = inner.iter().flat_map(|pair| pair.repeat(PAIR / 2)).collect();
-        columns.resize(columns.len().next_multiple_of(AT_ONCE), 0);
-        let (first_row, rows) = trimmed(&all, &0);
-        let total = all.iter().map(|weight| i64::from(*weight)).sum::<i64>().pow(2);
+        if side > MOST_BLOCKS * BLOCK {
+            return None;
+        }
+        let blocks = narrow.chunks(side).flat_map(|pixel| pixel.chunks(BLOCK));
+        let blocks = blocks.map(|block| [0, 1, 2, 3].map(|at| block.get(at).copied().unwrap_or(0)));
         Some(Self {
             rules,
             side,
-            pairs: side.div_ceil(2),
+            blocks: side.div_ceil(BLOCK),
             margin: margin.cast_unsigned() as usize,
-            first_pair,
-            weights: columns,
-            first_row,
-            rows: rows.iter().map(|weight| f64::from(*weight)).collect(),
+            columns: blocks
+                .clone()
+                .map(|[a, b, c, d]| [[a, b], [c, d]].map(repeated))
+                .collect(),
+            rows: blocks.map(|[a, b, c, d]| halves_weights([a, b, c, d])).collect(),
             of_pixels: of_pixels.map(|columns| columns.iter().sum()).collect(),
-            mean: Mean::new(total, rules),
-            samples: Vec::new(),
-            stride: 0,
+            mean: Mean::new(all.iter().map(|weight| i64::from(*weight)).sum(), rules),
+            whole: Vec::new(),
             sums: Vec::new(),
+            halves: Vec::new(),
             width: 0,
         })
     }
@@ -127,21 +129,19 @@ impl DotSums {
     /// Resolves the pixels of a tile that are not flat.
     pub(super) fn resolve(&mut self, colors: &SampleColors, flat: &FlatPixels, block: &mut PixelBlock<'_>) {
         let around = 2 * self.margin + 1;
-        self.stride = (colors.width() * self.pairs * PAIR + AT_ONCE).next_multiple_of(AT_ONCE);
-        self.samples.resize(self.side * self.stride, 0);
-        self.width = flat.width() + TOGETHER;
-        self.sums.resize(around * self.side * self.width, [0.0; 4]);
+        self.whole.resize(colors.width() + TOGETHER, [0; 4]);
+        self.width = flat.width();
+        self.sums.resize((self.width + TOGETHER) * self.blocks, [0; 4 * BLOCK]);
+        self.halves
+            .resize((around * self.width + TOGETHER) * self.blocks, [0; AT_ONCE]);
         let rows = block.rect.y;
         for y in 0..flat.height() + 2 * self.margin {
-            let first = y % around * self.side * self.width;
             for run in flat.around(y, self.margin).runs() {
-                let (whole, is_split) = colors.row(y);
-                let read = run.start..run.end + 2 * self.margin;
-                if is_split[read.clone()].contains(&true) {
-                    dispatch!(simd::level(), simd => self.read(simd, colors, y, read));
-                    dispatch!(simd::level(), simd => self.across(simd, run, first));
+                let place = y % around * self.width;
+                if self.blocks == 1 {
+                    dispatch!(simd::level(), simd => self.across::<_, 1>(simd, (colors, y), run, place));
                 } else {
-                    dispatch!(simd::level(), simd => self.across_whole(simd, whole, run, first));
+                    dispatch!(simd::level(), simd => self.across::<_, 2>(simd, (colors, y), run, place));
                 }
             }
             let Some(row) = y.checked_sub(2 * self.margin) else {
@@ -149,139 +149,128 @@ impl DotSums {
             };
             let line = block.line(rows.start + i32::try_from(row).unwrap_or(0));
             for run in flat.mixed(row).runs() {
-                dispatch!(simd::level(), simd => self.down(simd, row, run, line));
+                if self.blocks == 1 {
+                    dispatch!(simd::level(), simd => self.down::<_, 1>(simd, row, run, line));
+                } else {
+                    dispatch!(simd::level(), simd => self.down::<_, 2>(simd, row, run, line));
+                }
+            }
+        }
+    }
+
+    /// Sums up the rows of samples around pixels side by side, from row `y` of what was painted, and puts them into the memory of
+    /// rows, where those of the first pixel have this place.
+    #[inline(always)]
+    fn across<S: Simd, const BLOCKS: usize>(
+        &mut self,
+        simd: S,
+        (colors, y): (&SampleColors, usize),
+        pixels: Range<usize>,
+        place: usize,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let read = pixels.start..pixels.end + 2 * self.margin;
+                let (shown, split) = colors.row(y);
+                let seen = shown[read.clone()].iter().zip(&split[read.clone()]);
+                for (whole, (color, split)) in self.whole[read.clone()].iter_mut().zip(seen) {
+                    let kept = i32::from(*split) - 1;
+                    let Premultiplied16([r, g, b, a]) = *color;
+                    *whole = [moved(r) & kept, moved(g) & kept, moved(b) & kept, moved(a) & kept];
+                }
+                self.add_whole::<S, BLOCKS>(simd, pixels.clone());
+                for x in read.filter(|x| split[*x]) {
+                    if let PixelColors::Split(samples) = colors.pixel(y * colors.width() + x) {
+                        self.add_split::<S, BLOCKS>(simd, x, samples, &pixels);
+                    }
+                }
+                let (first, last) = (pixels.start * BLOCKS, pixels.end * BLOCKS);
+                let found = &mut self.halves[place * BLOCKS..][first..last];
+                for (halves, sums) in found.iter_mut().zip(&self.sums[first..last]) {
+                    *halves = cut(simd, *sums);
+                }
+            },
+        );
+    }
+
+    /// The sums of rows around pixels, of what pixels of one colour add to them: as much to each row.
+    #[inline(always)]
+    fn add_whole<S: Simd, const BLOCKS: usize>(&mut self, simd: S, pixels: Range<usize>) {
+        for start in pixels.step_by(TOGETHER) {
+            let mut sum = i32x16::splat(simd, 0);
+            for (beside, weight) in self.of_pixels.iter().enumerate() {
+                if let Some(numbers) = self.whole[start + beside..].as_flattened().first_chunk::<16>() {
+                    sum += i32x16::simd_from(simd, *numbers) * *weight;
+                }
+            }
+            let sums = sum.to_array();
+            let of_pixels = self.sums[start * BLOCKS..].chunks_exact_mut(BLOCKS);
+            for (found, sum) in of_pixels.zip(sums.as_chunks().0) {
+                found.fill(i32x16::block_splat(i32x4::simd_from(simd, *sum)).to_array());
             }
         }
     }
 
-    /// Reads some pixels of a row.
+    /// Adds the rows of a split pixel in column `x` of what was painted to the sums of those of `pixels` around which it lies.
     #[inline(always)]
-    fn read<S: Simd>(&mut self, simd: S, colors: &SampleColors, y: usize, pixels: Range<usize>) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let numbers = self.pairs * PAIR;
-                for x in pixels {
-                    match colors.pixel(y * colors.width() + x) {
-                        PixelColors::Whole(color) => {
-                            let pair = i16x8::simd_from(simd, side_by_side(simd, moved(color), moved(color)));
-                            for row in 0..self.side {
-                                let found = &mut self.samples[row * self.stride + x * numbers..][..numbers];
-                                for found in found.as_chunks_mut::<PAIR>().0 {
-                                    pair.store_slice(found);
-                                }
-                            }
-                        }
-                        PixelColors::Split(samples) => {
-                            for row in 0..self.side {
-                                let found = &mut self.samples[row * self.stride + x * numbers..][..numbers];
-                                let samples = &samples[row * self.side..][..self.side];
-                                let (pairs, rest) = samples.as_chunks();
-                                let (found, last) = found.split_at_mut(pairs.len() * PAIR);
-                                for (found, [left, right]) in found.as_chunks_mut().0.iter_mut().zip(pairs) {
-                                    *found = side_by_side(simd, moved(*left), moved(*right));
-                                }
-                                if let ([left], Some(found)) = (rest, last.as_chunks_mut().0.first_mut()) {
-                                    *found = side_by_side(simd, moved(*left), [0; 4]);
-                                }
-                            }
-                        }
+    fn add_split<S: Simd, const BLOCKS: usize>(
+        &mut self,
+        simd: S,
+        x: usize,
+        samples: &[Premultiplied16],
+        pixels: &Range<usize>,
+    ) {
+        let touched = pixels.start.max(x.saturating_sub(2 * self.margin))..pixels.end.min(x + 1);
+        for row in 0..BLOCKS {
+            for column in 0..BLOCKS {
+                let (left, right) = match samples.first_chunk() {
+                    Some(all) if self.side == BLOCK => (columns(simd, all, 0), columns(simd, all, 2)),
+                    _ => {
+                        let part = part(samples, self.side, [row, column]);
+                        (columns(simd, &part, 0), columns(simd, &part, 2))
                     }
-                }
-            },
-        );
-    }
-
-    /// Sums up the rows of samples around pixels side by side.
-    #[inline(always)]
-    fn across<S: Simd>(&mut self, simd: S, pixels: Range<usize>, first: usize) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                for top in (0..self.side).step_by(ROWS) {
-                    for x in pixels.clone() {
-                        let start = (x * self.pairs + self.first_pair) * PAIR;
-                        if top + ROWS <= self.side {
-                            self.rows_at::<S, ROWS>(simd, top, start, first + top * self.width + x);
-                        } else {
-                            for row in top..self.side {
-                                self.rows_at::<S, 1>(simd, row, start, first + row * self.width + x);
-                            }
-                        }
-                    }
-                }
-            },
-        );
-    }
-
-    /// Some of them for one pixel.
-    #[inline(always)]
-    fn rows_at<S: Simd, const N: usize>(&mut self, simd: S, top: usize, start: usize, place: usize) {
-        let (weights, _) = self.weights.as_chunks::<AT_ONCE>();
-        let mut sums = [i32x8::splat(simd, 0); N];
-        let rows: [&[[i16; AT_ONCE]]; N] = std::array::from_fn(|row| {
-            let numbers = &self.samples[(top + row) * self.stride + start..][..self.weights.len()];
-            numbers.as_chunks().0
-        });
-        for (at, weights) in weights.iter().enumerate() {
-            let weights = i16x16::simd_from(simd, *weights);
-            for (sum, row) in sums.iter_mut().zip(rows) {
-                if let Some(numbers) = row.get(at) {
-                    *sum += i16x16::simd_from(simd, *numbers).pairwise_dot_product(weights);
+                };
+                // The last of these pixels has it nearest to its left end.
+                let weights = self.columns[(x + 1 - touched.end) * BLOCKS..].chunks_exact(BLOCKS);
+                let sums = self.sums[touched.start * BLOCKS..touched.end * BLOCKS].chunks_exact_mut(BLOCKS);
+                for (sums, weights) in sums.rev().zip(weights) {
+                    let [of_left, of_right] = weights[column];
+                    let of_left = i16x32::block_splat(i16x8::simd_from(simd, of_left));
+                    let of_right = i16x32::block_splat(i16x8::simd_from(simd, of_right));
+                    let found = left.pairwise_dot_product(of_left) + right.pairwise_dot_product(of_right);
+                    sums[row] = (i32x16::simd_from(simd, sums[row]) + found).to_array();
                 }
             }
         }
-        for (row, sum) in sums.into_iter().enumerate() {
-            let (left, right) = sum.split();
-            self.sums[place + row * self.width] = (left + right).to_array().map(f64::from);
-        }
-    }
-
-    /// The same for pixels that show one colour each, as all around them do: their rows are alike.
-    #[inline(always)]
-    fn across_whole<S: Simd>(&mut self, simd: S, colors: &[Premultiplied16], pixels: Range<usize>, first: usize) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                for x in pixels {
-                    let mut sum = i32x4::splat(simd, 0);
-                    for (color, weight) in colors[x..].iter().zip(&self.of_pixels) {
-                        sum += i32x4::simd_from(simd, moved(*color).map(i32::from)) * *weight;
-                    }
-                    let sum = sum.to_array().map(f64::from);
-                    for row in 0..self.side {
-                        self.sums[first + row * self.width + x] = sum;
-                    }
-                }
-            },
-        );
     }
 
     /// Sums up the last rows around pixels side by side, and makes pixels of them.
     #[inline(always)]
-    fn down<S: Simd>(&self, simd: S, row: usize, pixels: Range<usize>, line: &mut [u32]) {
+    fn down<S: Simd, const BLOCKS: usize>(&self, simd: S, row: usize, pixels: Range<usize>, line: &mut [u32]) {
         simd.vectorize(
             #[inline(always)]
             || {
-                let all = (2 * self.margin + 1) * self.side;
-                let first = (row * self.side + self.first_row) % all;
-                // From the first row to the end of the memory, and on from its start.
-                let (before, after) = self.rows.split_at(self.rows.len().min(all - first));
+                let around = 2 * self.margin + 1;
                 for start in pixels.clone().step_by(TOGETHER) {
-                    let mut sums = [f64x8::splat(simd, 0.0); TOGETHER / 2];
-                    for (first, weights) in [(first, before), (0, after)] {
-                        for (row, weight) in weights.iter().enumerate() {
-                            let at = (first + row) * self.width + start;
-                            let (twos, _) = self.sums[at..at + TOGETHER].as_flattened().as_chunks();
-                            for (sum, two) in sums.iter_mut().zip(twos) {
-                                *sum = f64x8::simd_from(simd, *two).mul_add(*weight, *sum);
+                    let mut sums = [i32x16::splat(simd, 0); TOGETHER];
+                    let mut at = row % around;
+                    for weights in self.rows.chunks_exact(BLOCKS) {
+                        let halves = &self.halves[(at * self.width + start) * BLOCKS..][..TOGETHER * BLOCKS];
+                        for (sum, halves) in sums.iter_mut().zip(halves.chunks_exact(BLOCKS)) {
+                            for (halves, weights) in halves.iter().zip(weights) {
+                                let weights = i16x32::simd_from(simd, *weights);
+                                *sum += i16x32::simd_from(simd, *halves).pairwise_dot_product(weights);
                             }
                         }
+                        at = if at + 1 == around { 0 } else { at + 1 };
                     }
-                    let found = sums.map(f64x8::to_array);
-                    let (found, _) = found.as_flattened().as_chunks();
-                    for (pixel, sum) in line[start..pixels.end].iter_mut().zip(found) {
-                        *pixel = self.mean.pixel(*sum, self.rules);
+                    let mut found = [0; TOGETHER];
+                    for (pixels, sums) in found.as_chunks_mut().0.iter_mut().zip(sums.as_chunks().0) {
+                        *pixels = self.mean.pixels(simd, both_halves(simd, *sums), self.rules);
+                    }
+                    for (pixel, found) in line[start..pixels.end].iter_mut().zip(found) {
+                        *pixel = found;
                     }
                 }
             },
@@ -290,7 +279,9 @@ impl DotSums {
 }
 
 impl Mean {
-    fn new(total: i64, rules: Rules) -> Self {
+    /// Where columns, or rows, weigh so much together.
+    fn new(axis: i64, rules: Rules) -> Self {
+        let total = axis.pow(2);
         let total_weight = total as f64;
         let per_level = f64::from(Premultiplied16::PER_BYTE) * total_weight;
         let half = match rules {
@@ -299,7 +290,8 @@ impl Mean {
         };
         Self {
             total,
-            moved: f64::from(MOVED) * total_weight,
+            // Of stored values, and of the lower halves of the sums of rows.
+            moved: f64::from(MOVED) * (total_weight + axis as f64),
             one: f64::from(Premultiplied16::ONE) * total_weight,
             // Sums are whole, and levels far apart: a level's least sum is found in it whatever the division rounds.
             rounding: half + 0.5,
@@ -307,15 +299,26 @@ impl Mean {
         }
     }
 
-    /// The pixel for a sum of values that were moved.
+    /// Two pixels for the sums of their numbers, which were moved.
     #[inline(always)]
-    fn pixel(&self, sum: [f64; 4], rules: Rules) -> u32 {
-        let sum = sum.map(|channel| channel + self.moved);
-        if sum[3] < self.one {
-            return self.translucent(sum, rules);
+    fn pixels<S: Simd>(&self, simd: S, sums: f64x8<S>, rules: Rules) -> [u32; 2] {
+        // Whole numbers below it are the lowest bits of what they make with it.
+        const WHOLE: f64 = (1_u64 << 52) as f64;
+        let sums = sums + self.moved;
+        let full = f64x8::splat(simd, self.one);
+        let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
+        let bits: u64x8<S> = (levels.floor() + WHOLE).bitcast();
+        let (sums, levels) = (sums.to_array(), bits.to_array());
+        let mut pixels = [0; 2];
+        for ((pixel, sum), levels) in pixels.iter_mut().zip(sums.as_chunks().0).zip(levels.as_chunks().0) {
+            let [r, g, b, _]: [u64; 4] = *levels;
+            *pixel = if sum[3] < self.one {
+                self.translucent(*sum, rules)
+            } else {
+                0xFF00_0000 | lowest(r) << 16 | lowest(g) << 8 | lowest(b)
+            };
         }
-        let [r, g, b, _] = sum.map(|channel| level((channel.clamp(0.0, self.one) + self.rounding) * self.levels));
-        0xFF00_0000 | r << 16 | g << 8 | b
+        pixels
     }
 
     /// The same of what is not opaque.
@@ -330,37 +333,100 @@ impl Mean {
     }
 }
 
-/// A level's number.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "from nothing to a little above 255"
-)]
-fn level(levels: f64) -> u32 {
-    levels as u32
+/// The weights of two columns, once for each channel.
+fn repeated([left, right]: [i16; 2]) -> [i16; 2 * BLOCK] {
+    [left, right, left, right, left, right, left, right]
 }
 
-/// A stored colour's channels, moved below zero by half their range.
-#[inline(always)]
-#[expect(clippy::cast_possible_wrap, reason = "the highest bit becomes the sign")]
-fn moved(color: Premultiplied16) -> [i16; 4] {
-    color.0.map(|channel| (channel ^ 1 << 15) as i16)
+/// The weights of four rows, in the order of [`DotSums::halves`].
+fn halves_weights([a, b, c, d]: [i16; BLOCK]) -> [i16; AT_ONCE] {
+    let mut weights = [0; AT_ONCE];
+    for (found, pair) in weights.chunks_mut(2 * BLOCK).zip([[a, c], [b, d], [a, c], [b, d]]) {
+        found.copy_from_slice(&repeated(pair));
+    }
+    weights
 }
 
-/// Two samples, channel by channel.
+/// The sums of four rows, in halves.
 #[inline(always)]
-fn side_by_side<S: Simd>(simd: S, left: [i16; 4], right: [i16; 4]) -> [i16; PAIR] {
-    let both = i16x8::from_slice(simd, [left, right].as_flattened());
-    both.zip_low(both.slide::<4>(both)).to_array()
+fn cut<S: Simd>(simd: S, sums: [i32; 4 * BLOCK]) -> [i16; AT_ONCE] {
+    const LOW: u32 = 0xFFFF;
+    let sums: u32x16<S> = i32x16::simd_from(simd, sums).bitcast();
+    let (first, last) = sums.split();
+    let low = ((first & u32x8::splat(simd, LOW)) | (last << 16)) ^ u32x8::splat(simd, 0x8000_8000);
+    let high = (first >> 16) | (last & u32x8::splat(simd, !LOW));
+    let halves: i16x32<S> = low.combine(high).bitcast();
+    halves.to_array()
 }
 
-/// Without what is `nothing` at both ends, and how many were left out at the first.
-fn trimmed<'t, T: PartialEq>(all: &'t [T], nothing: &T) -> (usize, &'t [T]) {
-    let first = all.iter().take_while(|one| *one == nothing).count();
-    let inner = &all[first..];
-    let last = inner.iter().rev().take_while(|one| *one == nothing).count();
-    (first, &inner[..inner.len() - last])
+/// A column of a block and the next one, side by side, moved.
+#[inline(always)]
+fn columns<S: Simd>(simd: S, block: &[Premultiplied16; BLOCK * BLOCK], column: usize) -> i16x32<S> {
+    let upper = pair(simd, block, column).combine(pair(simd, block, BLOCK + column));
+    let lower = pair(simd, block, 2 * BLOCK + column).combine(pair(simd, block, 3 * BLOCK + column));
+    let stored: u16x32<S> = upper.combine(lower).bitcast();
+    (stored ^ u16x32::splat(simd, MOVED)).bitcast()
+}
+
+/// A sample of a block and the next one, channel by channel.
+#[inline(always)]
+fn pair<S: Simd>(simd: S, block: &[Premultiplied16; BLOCK * BLOCK], first: usize) -> i16x8<S> {
+    let both: i16x8<S> = u64x2::simd_from(simd, [block[first].to_word(), block[first + 1].to_word()]).bitcast();
+    both.zip_low(both.slide::<4>(both))
+}
+
+/// The sums of two pixels, each by its sums of [`DotSums::halves`].
+#[inline(always)]
+fn both_halves<S: Simd>(simd: S, [first, second]: [i32x16<S>; 2]) -> f64x8<S> {
+    let ((low, high), (second_low, second_high)) = (first.split(), second.split());
+    let low = floats(simd, joined(low).combine(joined(second_low)));
+    let high = floats(simd, joined(high).combine(joined(second_high)));
+    high * f64::from(1 << 16) + low
+}
+
+/// The sums of even and odd rows together.
+#[inline(always)]
+fn joined<S: Simd>(sums: i32x8<S>) -> i32x4<S> {
+    let (even, odd) = sums.split();
+    even + odd
+}
+
+/// Whole numbers as floats.
+#[inline(always)]
+fn floats<S: Simd>(simd: S, numbers: i32x8<S>) -> f64x8<S> {
+    // Numbers without a sign are the lowest bits of what they make with 2^52.
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    const SIGN: u32 = 1 << 31;
+    let high = u32x8::splat(simd, 0x4330_0000);
+    let numbers = numbers.bitcast::<u32x8<S>>() ^ u32x8::splat(simd, SIGN);
+    let words = numbers.zip_low(high).combine(numbers.zip_high(high));
+    words.bitcast::<f64x8<S>>() - (WHOLE + f64::from(SIGN))
+}
+
+/// A stored channel below zero by half its range.
+#[inline(always)]
+fn moved(channel: u16) -> i32 {
+    i32::from(channel) - i32::from(MOVED)
+}
+
+/// A block of a pixel of `side x side` samples; beyond its last row and column what is nothing once it is moved.
+#[inline(always)]
+fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> [Premultiplied16; BLOCK * BLOCK] {
+    let mut block = [Premultiplied16([MOVED; 4]); BLOCK * BLOCK];
+    let rows = samples.chunks_exact(side).skip(row * BLOCK);
+    for (found, samples) in block.chunks_exact_mut(BLOCK).zip(rows) {
+        for (found, sample) in found.iter_mut().zip(&samples[column * BLOCK..]) {
+            *found = *sample;
+        }
+    }
+    block
+}
+
+/// The lowest byte.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
+fn lowest(word: u64) -> u32 {
+    u32::from(word as u8)
 }
 
 #[cfg(test)]
@@ -475,10 +541,11 @@ mod tests {
 
     #[test]
     fn levels_are_those_of_an_exact_division() {
-        let total = 41_231_i64.pow(2);
+        let axis = 41_231_i64;
+        let total = axis.pow(2);
         let per_level = i64::from(Premultiplied16::PER_BYTE) * total;
         for rules in Rules::ALL {
-            let mean = Mean::new(total, rules);
+            let mean = Mean::new(axis, rules);
             for level in 0..=255 {
                 // The sums on both sides of where a level starts.
                 for beside in [-1, 0, 1] {
@@ -489,9 +556,13 @@ mod tests {
                         weight: total,
                     };
                     let moved = exact.channels.map(|channel| channel as f64 - mean.moved);
+                    let found = dispatch!(simd::level(), simd => {
+                        let two = f64x8::from_slice(simd, [moved, moved].as_flattened());
+                        mean.pixels(simd, two, rules)
+                    });
                     assert_eq!(
-                        mean.pixel(moved, rules),
-                        ResolveSpace::Stored.weighted_pixel(exact, rules),
+                        found,
+                        [ResolveSpace::Stored.weighted_pixel(exact, rules); 2],
                         "level {level}, {beside} beside, {rules:?}"
                     );
                 }

@@ -151,12 +151,16 @@ fn whole<S: Simd>(simd: S, split: &[bool]) -> u128 {
     simd.vectorize(
         #[inline(always)]
         || {
-            let bytes = split.chunks(16).enumerate().map(|(at, split)| {
-                let found: [u8; 16] = std::array::from_fn(|i| split.get(i).map_or(1, |split| u8::from(*split)));
-                let whole = u8x16::simd_from(simd, found).simd_eq(u8x16::splat(simd, 0));
-                u128::from(whole.to_bitmask()) << (16 * at)
-            });
-            bytes.fold(0, |all, bits| all | bits)
+            let (sixteens, rest) = split.as_chunks::<16>();
+            let mut bits = 0;
+            for (at, split) in sixteens.iter().enumerate() {
+                let whole = u8x16::simd_from(simd, split.map(u8::from)).simd_eq(u8x16::splat(simd, 0));
+                bits |= u128::from(whole.to_bitmask()) << (16 * at);
+            }
+            for (at, split) in (16 * sixteens.len()..).zip(rest) {
+                bits |= u128::from(!split) << at;
+            }
+            bits
         },
     )
 }

@@ -263,6 +263,17 @@ impl VisibilityBuffer {
             .flat_map(|row| row.iter().flat_map(|word| lanes(*word)).take(self.side))
     }
 
+    /// The same four to a word, row by row; the last word of a row may hold fewer.
+    #[inline]
+    pub(crate) fn rows_of_words(&self, x: usize, y: i32) -> impl Iterator<Item = &[u64]> {
+        self.words(x, y).chunks_exact(self.words)
+    }
+
+    /// Samples along the side of a pixel.
+    pub(crate) fn side(&self) -> usize {
+        self.side
+    }
+
     /// Calls `visit` with the samples of a split pixel, four in a word, each with how many of them count.
     #[inline]
     pub(crate) fn each_packed(&self, x: usize, y: i32, mut visit: impl FnMut(u64, u32)) {

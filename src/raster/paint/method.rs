@@ -105,7 +105,7 @@ impl Kinds {
         }
         let rate_one = context.rate == SampleRate::ONE;
         if !filter.is_plain() {
-            // What neighbours weigh, too, takes the colour of every sample.
+            // What neighbours weigh, too, takes the colour of every sample; of what is flat surfaces tell it at last.
             return if all_flat() && has_room(context) {
                 Method::Visibility
             } else {

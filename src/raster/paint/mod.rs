@@ -8,7 +8,8 @@
 //!
 //! Where areas count instead of samples, [`per_sample`] paints everything, with [`by_area`].
 //!
-//! Where pixels take samples of their neighbours, [`wide`] resolves what [`per_sample`] has painted.
+//! Where pixels take samples of their neighbours, [`wide`] resolves what [`per_sample`] has painted, or [`visibility`] where all of
+//! a tile is flat.
 //!
 //! [`per_sample`] is the simple one that the others are tested against; it also feeds the [`recorder`], from which pixels
 //! are explained.

@@ -2,6 +2,7 @@
 //!
 //! The [`buffer`] holds surface ids, [`packed`] four to a word; [`two_surfaces`] compresses a pixel of two surfaces as
 //! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
+//! [`sample_colors`] tells the colour of each sample instead, for resolve filters that reach beyond a pixel.
 
 pub(in crate::raster) mod buffer;
 mod by_samples;

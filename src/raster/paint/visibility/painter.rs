@@ -232,6 +232,7 @@ mod tests {
     use crate::raster::frame::block::PixelBlock;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
+    use crate::raster::paint::sample_colors::SampleColors;
     use crate::raster::random::{fill, noise};
     use crate::raster::span::Span;
     use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, SizedFilter};
@@ -290,12 +291,21 @@ mod tests {
                 painters
                     .visibility
                     .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
+                let mut colors = SampleColors::new(settings.rate, settings.sampling.rules, settings.space);
+                colors.reset(rect, Premultiplied16::TRANSPARENT);
+                painters.visibility.put_colors(&mut colors);
                 painters.per_sample.begin(rect, list.background());
                 painters.per_sample.paint(chunk, commands, &mut painters.shape_coverage);
                 for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
                     let mut expected = vec![0; width];
                     painters.per_sample.resolve(y, &mut expected);
                     assert_eq!(row, expected, "row {y} of tile {tile}, {settings:?}");
+                    let mut of_colors = vec![0; width];
+                    colors.resolve(y, &mut of_colors);
+                    assert_eq!(
+                        of_colors, expected,
+                        "row {y} of tile {tile} by its samples, {settings:?}"
+                    );
                 }
             }
             Ok(())

@@ -1,13 +1,14 @@
 //! The resolve of tiles whose pixels take samples of their neighbours too.
 //!
-//! A tile is painted with a margin, sample by sample, and each of its own pixels is the weighted sum of all samples around it.
+//! A tile is painted with a margin, down to the colour of each sample, and each of its own pixels is the weighted sum of all samples
+//! around it.
 //! All sums are whole numbers: they do not depend on the order of their terms, and so neither on tiles and threads nor on the
 //! way that a pixel goes:
 //!
 //! | pixels | by |
 //! |---|---|
 //! | in the middle of pixels that show one colour | nothing but that colour ([`flat`]) |
-//! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in 16 bits ([`dot_sums`]) |
+//! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |
 //!

@@ -6,21 +6,17 @@
 //! into one colour per sample; an opaque primitive that covers it wholly makes it one colour again. So flat areas cost
 //! one store per pixel at every sample rate, and memory is touched only where samples differ.
 
+mod area;
+mod composite;
+mod resolve;
+
 use std::ops::Range;
 
-use fearless_simd::{Simd, dispatch};
-
-use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
+use crate::color::{Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
-use crate::raster::coverage::area::row::{Area, CoveredArea};
-use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
-use crate::simd;
-
-/// Samples of one pixel with which one colour is composited together.
-const ALIKE: usize = 16;
 
 /// What a pixel holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,49 +158,6 @@ impl SampleColors {
         }
     }
 
-    /// Paints a part of some pixels of row `y`, which have one colour each, with one colour: each is the mean of what it showed
-    /// and of what it shows where it is covered.
-    #[inline]
-    pub(crate) fn fill_area(&mut self, y: i32, covered: CoveredArea, color: Premultiplied16) {
-        let CoveredArea { xs, area } = covered;
-        if xs.is_empty() {
-            return;
-        }
-        let first = self.index(xs.start, y);
-        let pixels = &mut self.whole[first..first + xs.length()];
-        if area == Area::WHOLE {
-            if color.is_opaque() {
-                pixels.fill(color);
-            } else {
-                color.over_all(pixels, self.rules);
-            }
-            return;
-        }
-        // Bytes are stored after every write: else what is painted with nothing later would truncate them, tile by tile.
-        let truncates = self.rules == Rules::Course;
-        for below in pixels {
-            let above = if color.is_opaque() && !truncates {
-                color
-            } else {
-                color.over(*below, self.rules)
-            };
-            let mixed = self.space.mix(*below, above, area.parts());
-            *below = if truncates { mixed.truncated() } else { mixed };
-        }
-    }
-
-    /// As [`SampleColors::fill_area`], with a colour for each of the pixels.
-    pub(crate) fn fill_area_each(&mut self, y: i32, covered: CoveredArea, shaded: ShadedColors<'_>) {
-        let CoveredArea { xs, area } = covered;
-        if area == Area::WHOLE {
-            return self.fill_each(xs, y, shaded);
-        }
-        for (start, color) in (xs.start..xs.end).zip(shaded.colors) {
-            let xs = Span { start, end: start + 1 };
-            self.fill_area(y, CoveredArea { xs, area }, *color);
-        }
-    }
-
     /// Paints each of the pixels `xs` of row `y` with its own colour.
     pub(crate) fn fill_each(&mut self, xs: Span, y: i32, shaded: ShadedColors<'_>) {
         if shaded.opaque && !xs.is_empty() {
@@ -330,97 +283,6 @@ impl SampleColors {
         self.samples[pixel * self.per_pixel..][..self.per_pixel].fill(self.whole[pixel]);
     }
 
-    /// Composites another tile of the same rectangle with this one.
-    pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
-        self.opaque &= compositing.keeps_below();
-        let changed = if self.rules == Rules::Course {
-            // Painting nothing truncates, too.
-            self.rect
-        } else if compositing.keeps_below() {
-            layer.painted
-        } else {
-            // What is transparent stays so.
-            self.painted
-        };
-        if changed.is_empty() {
-            return;
-        }
-        self.note_painted(changed);
-        for y in changed.y.start..changed.y.end {
-            let first = self.index(changed.x.start, y);
-            self.composite_pixels(first..first + changed.x.length(), layer, compositing);
-        }
-    }
-
-    /// The same for some pixels side by side.
-    fn composite_pixels(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
-        let mut first = pixels.start;
-        while first < pixels.end {
-            // Pixels that are alike, so that their samples lie side by side.
-            let kind = |pixel: usize| (layer.split[pixel], self.split[pixel]);
-            let last = (first + 1..pixels.end)
-                .find(|pixel| kind(*pixel) != kind(first))
-                .unwrap_or(pixels.end);
-            let whole = &layer.whole[first..last];
-            match kind(first) {
-                (true, true) => {
-                    let samples = first * self.per_pixel..last * self.per_pixel;
-                    compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
-                }
-                (true, false) => self.composite_over_whole(first..last, layer, compositing),
-                _ if whole.iter().all(|color| compositing.keeps_under(*color)) => {
-                    // Nothing changes.
-                }
-                (false, true) => self.composite_whole(first..last, layer, compositing),
-                (false, false) => compositing.composite(whole, &mut self.whole[first..last], self.rules),
-            }
-            first = last;
-        }
-    }
-
-    /// The same for pixels that are not split, below pixels of the layer that are.
-    fn composite_over_whole(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
-        self.ensure_samples();
-        let first = pixels.start;
-        for pixel in pixels {
-            self.split[pixel] = true;
-            let start = pixel * self.per_pixel;
-            let (before, samples) = self.samples.split_at_mut(start);
-            let below = &mut samples[..self.per_pixel];
-            let above = &layer.samples[start..start + self.per_pixel];
-            let color = self.whole[pixel];
-            if compositing.is_copied(above, color, self.rules) {
-                below.copy_from_slice(above);
-                continue;
-            }
-            // Along a level gradient pixels are as the ones before them.
-            let last = start - self.per_pixel.min(start);
-            if pixel > first && color == self.whole[pixel - 1] && *above == layer.samples[last..start] {
-                below.copy_from_slice(&before[last..]);
-                continue;
-            }
-            below.fill(color);
-            compositing.composite(above, below, self.rules);
-        }
-    }
-
-    /// The same for pixels that are split, below pixels of the layer that are not.
-    fn composite_whole(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
-        for pixel in pixels {
-            let color = layer.whole[pixel];
-            // The course truncates at each step: there samples go every one of them, apart, as they always did.
-            if self.rules != Rules::Course && compositing.hides(compositing.fragment(color)) {
-                self.split[pixel] = false;
-                self.whole[pixel] = compositing.composited(color, Premultiplied16::TRANSPARENT, self.rules);
-                continue;
-            }
-            let below = &mut self.samples[pixel * self.per_pixel..][..self.per_pixel];
-            below.chunks_mut(ALIKE).for_each(|below| {
-                compositing.composite(&[color; ALIKE][..below.len()], below, self.rules);
-            });
-        }
-    }
-
     /// The colour of one sample of a pixel.
     pub(crate) fn sample(&self, x: i32, y: i32, sample: usize) -> Premultiplied16 {
         let pixel = self.index(x, y);
@@ -456,73 +318,6 @@ impl SampleColors {
             PixelColors::Whole(self.whole[index])
         }
     }
-
-    /// Resolves row `y` of the tile into pixels `0xAARRGGBB`: each the mean of its samples.
-    pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
-        let first = self.index(self.rect.x.start, y);
-        let pixels = &mut pixels[..self.width];
-        let whole = &self.whole[first..first + self.width];
-        if self.opaque {
-            Premultiplied16::opaque_to_pixels(whole, self.rules, pixels);
-        } else {
-            for (pixel, color) in pixels.iter_mut().zip(whole) {
-                *pixel = color.to_pixel(self.rules);
-            }
-        }
-        if self.samples.is_empty() {
-            return;
-        }
-        match self.space {
-            ResolveSpace::Stored => dispatch!(simd::level(), simd => self.resolve_stored(simd, first, pixels)),
-            ResolveSpace::Linear => dispatch!(simd::level(), simd => self.resolve_linear(simd, first, pixels)),
-        }
-    }
-
-    /// The split pixels from one on, counted from it, and their samples.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn split_from(&self, first: usize) -> impl Iterator<Item = (usize, &[Premultiplied16])> {
-        // There may be room for the samples of some pixels only, as long as none of the others is split.
-        let samples = self.samples.get(first * self.per_pixel..).unwrap_or_default();
-        let samples = samples.chunks_exact(self.per_pixel);
-        let all = self.split[first..].iter().zip(samples).enumerate();
-        all.filter_map(|(i, (split, samples))| split.then_some((i, samples)))
-    }
-
-    /// Resolves split pixels into the mean of their samples' light.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn resolve_linear<S: Simd>(&self, simd: S, first: usize, pixels: &mut [u32]) {
-        let resolver = LightResolver::new(u32::try_from(self.per_pixel).unwrap_or(u32::MAX), self.rules);
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                for (i, samples) in self.split_from(first) {
-                    let Some(pixel) = pixels.get_mut(i) else {
-                        break;
-                    };
-                    *pixel = resolver.mean(samples);
-                }
-            },
-        );
-    }
-
-    /// Resolves split pixels into the mean of what their samples store.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn resolve_stored<S: Simd>(&self, simd: S, first: usize, pixels: &mut [u32]) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                for (i, samples) in self.split_from(first) {
-                    let Some(pixel) = pixels.get_mut(i) else {
-                        break;
-                    };
-                    *pixel = self.resolver.pixel(Premultiplied16::sums(samples));
-                }
-            },
-        );
-    }
 }
 
 /// Paints colours over samples.
@@ -553,6 +348,7 @@ fn offset(distance: i32) -> usize {
 mod tests {
     use super::*;
     use crate::color::BlendMode;
+    use crate::raster::layers::Compositing;
 
     type Found<T> = arbtest::arbitrary::Result<T>;
 

@@ -6,7 +6,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, i32x8, u8x16, u32x8};
+use fearless_simd::{Simd, f32x8, i32x8, u8x16, u32x4, u32x8};
 
 use super::{MipLevel, Wrap};
 
@@ -92,14 +92,20 @@ impl LineTexels<'_> {
                 .inside
                 .get(number * BLOCK * stride..(number + 1) * BLOCK * stride - stride + 1),
         };
-        let texels = match (self.line, texels) {
-            (Line::Row, Some(texels)) => std::array::from_fn(|i| texels[i]),
-            (Line::Column, Some(texels)) => std::array::from_fn(|i| texels[i * stride]),
-            (_, None) => self.beyond(number),
+        let bytes: u8x16<S> = match (self.line, texels) {
+            (Line::Row, Some(texels)) => {
+                let mut bytes = [0; 4 * BLOCK];
+                bytes.copy_from_slice(texels.as_flattened());
+                u8x16::simd_from(simd, bytes)
+            }
+            // As numbers they go from register to register: a vector of what was just stored one by one has to wait for it.
+            (Line::Column, Some(texels)) => in_vector(simd, |i| texels[i * stride]),
+            (_, None) => {
+                let texels = self.beyond(number);
+                in_vector(simd, |i| texels[i])
+            }
         };
-        let mut bytes = [0; 4 * BLOCK];
-        bytes.copy_from_slice(texels.as_flattened());
-        let words = u8x16::simd_from(simd, bytes).widen();
+        let words = bytes.widen();
         let halves: (u32x8<S>, u32x8<S>) = words.0.combine(words.1).widen();
         let mut found = [[0.0; 4]; BLOCK];
         for (found, half) in found.as_flattened_mut().chunks_mut(8).zip([halves.0, halves.1]) {
@@ -108,10 +114,18 @@ impl LineTexels<'_> {
         // From memory a number fills a vector in the instruction that uses it; the compiler would take vectors apart.
         std::hint::black_box(found)
     }
+
     #[inline(never)]
     fn beyond(&self, number: usize) -> [[u8; 4]; BLOCK] {
         let [first, line] = self.first;
         let at = |i: usize| first + i32::try_from(number * BLOCK + i).unwrap_or(0);
         std::array::from_fn(|i| self.of.level.wrapped(self.of.wrap, self.line.turned([at(i), line])))
     }
+}
+
+/// A block of texels by their numbers in it.
+#[inline(always)]
+fn in_vector<S: Simd>(simd: S, texel: impl Fn(usize) -> [u8; 4]) -> u8x16<S> {
+    let words = [0, 1, 2, 3].map(|i| u32::from_le_bytes(texel(i)));
+    u32x4::simd_from(simd, words).bitcast()
 }

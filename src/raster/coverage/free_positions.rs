@@ -159,7 +159,7 @@ impl FreePositions {
 
     fn pixel(&mut self, scan: &TriangleScan, x: i32, y: i32) -> Option<Covered> {
         let whole = Covered::Whole(Span { start: x, end: x + 1 });
-        let values = match scan.reach(x, y) {
+        let values = match scan.reach(scan.values(x, y)) {
             PixelReach::Nothing => return None,
             PixelReach::All => return Some(whole),
             PixelReach::Part(values) => values,

@@ -10,7 +10,8 @@
     reason = "a function that is not inlined into its dispatch loses the vector instructions"
 )]
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, i32x16};
 
 use crate::geometry::FillRule;
 use crate::geometry::edge::edge_value;
@@ -19,7 +20,7 @@ use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::polygon::OutlineWithEdges;
-use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
+use crate::raster::coverage::sample_lanes::{EdgeSteps, SampleLanes};
 use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
@@ -69,10 +70,13 @@ struct Sweep {
     edges: Vec<LocalEdge>,
     /// Those that may cross the pixel at work, by number.
     active: Vec<u32>,
-    /// On which side of them samples lie: bits of those around which the edge winds, and how.
-    sides: Vec<(u64, i32)>,
+    /// The last pixel that all of those may cross.
+    last: i32,
     /// How often those edges wind around each row of lattice points that lie left of the pixel at work as a whole.
     windings: RowWindings,
+    /// The same as what changes from row to row, where that is known.
+    changes: Vec<(i32, i32)>,
+    are_changes_known: bool,
     /// How often each sample of a pixel is wound around, and each row.
     around: Vec<i32>,
     rows: Vec<i32>,
@@ -81,8 +85,10 @@ struct Sweep {
 /// An edge, the lattice rows of a pixel that it crosses, and the pixels that it may cross.
 #[derive(Clone, Copy, Debug)]
 struct LocalEdge {
-    top: GridPoint,
-    bottom: GridPoint,
+    /// The edge function at the first point of the row's pixel in column 0, and its steps: not below zero where the edge does not
+    /// lie right of a sample.
+    value: i64,
+    steps: EdgeSteps,
     rows: Span,
     winding: i32,
     from: i32,
@@ -246,8 +252,10 @@ impl Sweep {
             columns: Span::EMPTY,
             edges: Vec::new(),
             active: Vec::new(),
-            sides: Vec::new(),
+            last: i32::MAX,
             windings: RowWindings::default(),
+            changes: Vec::new(),
+            are_changes_known: false,
             around: Vec::new(),
             rows: Vec::new(),
         }
@@ -260,6 +268,8 @@ impl Sweep {
         (self.rule, self.columns, self.y) = (outline.outline.rule, columns, y);
         self.edges.clear();
         self.active.clear();
+        (self.last, self.are_changes_known) = (i32::MAX, false);
+        let first_point = self.first_point(0);
         let (top, width) = (y * grid.side(), grid.units_per_pixel());
         let rows = Span {
             start: top,
@@ -270,8 +280,10 @@ impl Sweep {
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
             self.edges.push(LocalEdge {
-                top: edge.top,
-                bottom: edge.bottom,
+                // What the function gains from sample to sample are multiples of their distance: divided by that, and rounded
+                // down, the side does not change. Downwards, the right of the edge on the screen is where it is negative.
+                value: -edge_value(edge.top, edge.bottom, first_point) >> grid.bits(),
+                steps: EdgeSteps::new(edge.bottom.y - edge.top.y, edge.top.x - edge.bottom.x),
                 rows: Span {
                     start: inside.start - top,
                     end: inside.end - top,
@@ -292,13 +304,23 @@ impl Sweep {
             && edge.from <= x
         {
             self.active.push(u32::try_from(next).unwrap_or(u32::MAX));
+            self.last = self.last.min(edge.to);
             next += 1;
         }
-        let (edges, windings) = (&self.edges, &mut self.windings);
+        if self.last >= x {
+            return next;
+        }
+        self.last = i32::MAX;
+        self.are_changes_known = false;
+        let Self {
+            edges, windings, last, ..
+        } = self;
         self.active.retain(|number| {
             let edge = &edges[*number as usize];
             let is_here = edge.to >= x;
-            if !is_here {
+            if is_here {
+                *last = edge.to.min(*last);
+            } else {
                 windings.add(edge.rows, edge.winding);
             }
             is_here
@@ -319,48 +341,37 @@ impl Sweep {
     /// The samples of the pixel in column `x` that are inside, as bits; `lanes` stand at it.
     #[inline(always)]
     fn enclosed_bits<S: Simd>(&mut self, simd: S, x: i32, lanes: &SampleLanes) -> u64 {
-        let (grid, rule, first) = (self.grid, self.rule, self.first_point(x));
-        self.sides.clear();
-        for number in &self.active {
-            let edge = &self.edges[*number as usize];
-            let value = edge_value(edge.top, edge.bottom, first);
-            // What edges gain from sample to sample are multiples of their distance: divided by that, and rounded down, the
-            // side does not change. Downwards, the right of the edge on the screen is where the edge function is negative.
-            let left_of_sample = PixelEdge {
-                value: -value >> grid.bits(),
-                right: edge.bottom.y - edge.top.y,
-                down: edge.top.x - edge.bottom.x,
+        if !self.are_changes_known {
+            self.windings.changes(&mut self.changes);
+            self.are_changes_known = true;
+        }
+        let (side, number) = (self.grid.side(), |number| i32x16::splat(simd, number));
+        let mut bits = 0;
+        for (first, samples) in lanes.blocks(simd) {
+            let (rows, mut around) = (samples.rows(), number(self.windings.of_first()));
+            for (row, change) in &self.changes {
+                around = rows.simd_ge(number(*row)).select(around + number(*change), around);
+            }
+            for active in &self.active {
+                let edge = &self.edges[*active as usize];
+                let mut winds = samples.inside(edge.value_at(x, side), edge.steps);
+                let Span { start, end } = edge.rows;
+                if end - start != side {
+                    winds &= rows.simd_ge(number(start)) & rows.simd_lt(number(end));
+                }
+                around = winds.select(around + number(edge.winding), around);
+            }
+            let counted = match self.rule {
+                FillRule::NonZero => around,
+                FillRule::EvenOdd => around & number(1),
             };
-            let mut bits = lanes.inside(simd, left_of_sample);
-            if edge.rows.end - edge.rows.start != grid.side() {
-                bits &= lanes.in_rows(simd, edge.rows);
-            }
-            self.sides.push((bits, edge.winding));
+            bits |= (!counted.simd_eq(number(0))).to_bitmask() << first;
         }
-        if let Some(winding) = self.windings.even() {
-            return enclosed_of(rule, winding, lanes.all(), &self.sides);
-        }
-        self.windings.of_rows(&mut self.rows);
-        let (mut rest, mut enclosed) = (lanes.all(), 0);
-        while rest != 0 {
-            // All samples in rows that are wound around alike.
-            let winding_of = |sample: u32| self.rows[lanes.row(sample as usize)];
-            let winding = winding_of(rest.trailing_zeros());
-            let (mut alike, mut others) = (0, rest);
-            while others != 0 {
-                let sample = others.trailing_zeros();
-                alike |= u64::from(winding_of(sample) == winding) << sample;
-                others &= others - 1;
-            }
-            enclosed |= enclosed_of(rule, winding, alike, &self.sides);
-            rest &= !alike;
-        }
-        enclosed
+        bits & lanes.all()
     }
 
     /// The samples of the pixel in column `x` that are inside, one after the other.
     fn enclosed(&mut self, x: i32, places: &[Position]) -> SampleMask {
-        let (grid, first) = (self.grid, self.first_point(x));
         self.around.clear();
         if let Some(winding) = self.windings.even() {
             self.around.resize(places.len(), winding);
@@ -371,14 +382,12 @@ impl Sweep {
         }
         for number in &self.active {
             let edge = &self.edges[*number as usize];
-            let value = edge_value(edge.top, edge.bottom, first);
-            let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
-            let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
-            // Downwards, the right of the edge on the screen is where the edge function is negative.
+            let value = edge.value_at(x, self.grid.side());
+            let [right, down] = [edge.steps.right, edge.steps.down].map(i64::from);
             let rows = i64::from(edge.rows.start)..i64::from(edge.rows.end);
             for (around, place) in self.around.iter_mut().zip(places) {
                 let [column, row] = place.map(i64::from);
-                let left_of_sample = value + right * column + down * row <= 0;
+                let left_of_sample = value + right * column + down * row >= 0;
                 *around += if left_of_sample && rows.contains(&row) {
                     edge.winding
                 } else {
@@ -392,18 +401,11 @@ impl Sweep {
     }
 }
 
-/// Which of some samples are inside, around all of which `winding` is wound, and around each of them what `sides` add.
-fn enclosed_of(rule: FillRule, winding: i32, samples: u64, sides: &[(u64, i32)]) -> u64 {
-    if samples == 0 {
-        return 0;
-    }
-    match sides {
-        [] if rule.encloses(winding) => samples,
-        [] => 0,
-        [(bits, more), sides @ ..] => {
-            enclosed_of(rule, winding + more, samples & bits, sides)
-                | enclosed_of(rule, winding, samples & !bits, sides)
-        }
+impl LocalEdge {
+    /// The edge function at the first point of the row's pixel in column `x`, where pixels have so many columns.
+    #[inline(always)]
+    fn value_at(&self, x: i32, side: i32) -> i64 {
+        self.value + i64::from(self.steps.right) * i64::from(x) * i64::from(side)
     }
 }
 

@@ -9,11 +9,12 @@
 )]
 
 use fearless_simd::Simd;
+use fearless_simd::prelude::*;
 
 use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::edge_bounds::TileRows;
-use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
+use crate::raster::coverage::sample_lanes::{EdgeSteps, SampleLanes};
 use crate::raster::sampling::positions::Position;
 use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
@@ -43,7 +44,11 @@ pub(super) struct FoundRun {
 /// A [`SampleEdge`], whose samples are all points of the lattice.
 #[derive(Clone, Copy, Debug)]
 struct LatticeEdge {
-    edge: SampleEdge,
+    /// At the first point of the frame's first pixel.
+    value: i64,
+    steps: EdgeSteps,
+    /// What it gains from a pixel to the one on its right.
+    right_pixel: i64,
     /// What it gains from a pixel's first point to the point where it is least and greatest.
     least: i64,
     most: i64,
@@ -148,14 +153,21 @@ impl TriangleScan {
         (before, inside, after)
     }
 
-    /// What its edges say of a pixel.
+    /// The values of its edges at a pixel's first point.
     #[inline(always)]
-    pub(super) fn reach(&self, x: i32, y: i32) -> PixelReach {
+    pub(super) fn values(&self, x: i32, y: i32) -> [i64; 3] {
         let side = i64::from(self.grid.side());
         let (column, row) = (i64::from(x) * side, i64::from(y) * side);
+        self.edges.map(|LatticeEdge { value, steps, .. }| {
+            value + i64::from(steps.right) * column + i64::from(steps.down) * row
+        })
+    }
+
+    /// What its edges say of a pixel by their [`TriangleScan::values`] there.
+    #[inline(always)]
+    pub(super) fn reach(&self, here: [i64; 3]) -> PixelReach {
         let (mut values, mut crossed) = ([INSIDE; 3], false);
-        for (value, LatticeEdge { edge, least, most }) in values.iter_mut().zip(&self.edges) {
-            let here = edge.value + i64::from(edge.right) * column + i64::from(edge.down) * row;
+        for ((value, here), LatticeEdge { least, most, .. }) in values.iter_mut().zip(here).zip(&self.edges) {
             if here + most < 0 {
                 return PixelReach::Nothing;
             }
@@ -174,8 +186,8 @@ impl TriangleScan {
     /// What each edge gains from a pixel's first point to another.
     #[inline]
     pub(super) fn gains(&self, [column, row]: Position) -> [i64; 3] {
-        self.edges.map(|LatticeEdge { edge, .. }| {
-            i64::from(edge.right) * i64::from(column) + i64::from(edge.down) * i64::from(row)
+        self.edges.map(|LatticeEdge { steps, .. }| {
+            i64::from(steps.right) * i64::from(column) + i64::from(steps.down) * i64::from(row)
         })
     }
 
@@ -185,11 +197,18 @@ impl TriangleScan {
         for y in self.rows.start..self.rows.end {
             let (before, inside, after) = self.parts(y);
             for xs in [before, after] {
+                if xs.is_empty() {
+                    continue;
+                }
+                let mut values = self.values(xs.start, y);
                 for x in xs.start..xs.end {
-                    let bits = self.bits(simd, lanes, [x, y]);
+                    let bits = self.bits(simd, lanes, [x, y], values);
                     if bits != 0 {
                         let xs = Span { start: x, end: x + 1 };
                         found.push(FoundRun { y, xs, bits });
+                    }
+                    for (value, edge) in values.iter_mut().zip(&self.edges) {
+                        *value += edge.right_pixel;
                     }
                 }
             }
@@ -200,34 +219,40 @@ impl TriangleScan {
         }
     }
 
-    /// The samples of a pixel that are covered.
+    /// The samples of a pixel that are covered, by the values of the edges there.
     #[inline(always)]
-    fn bits<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, pixel: [i32; 2]) -> u64 {
-        let values = match self.reach(pixel[0], pixel[1]) {
+    fn bits<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, pixel: [i32; 2], values: [i64; 3]) -> u64 {
+        let values = match self.reach(values) {
             PixelReach::Nothing => return 0,
             PixelReach::All => return lanes.all(),
             PixelReach::Part(values) => values,
         };
         lanes.go_to(pixel);
-        let mut bits = lanes.all();
-        for (value, LatticeEdge { edge, .. }) in values.into_iter().zip(&self.edges) {
-            if value != INSIDE {
-                let SampleEdge { right, down, .. } = *edge;
-                bits &= lanes.inside(simd, PixelEdge { value, right, down });
+        let mut bits = 0;
+        for (first, samples) in lanes.blocks(simd) {
+            let mut inside = u64::MAX;
+            for (value, LatticeEdge { steps, .. }) in values.into_iter().zip(&self.edges) {
+                if value != INSIDE {
+                    inside &= samples.inside(value, *steps).to_bitmask();
+                }
             }
+            bits |= inside << first;
         }
-        bits
+        bits & lanes.all()
     }
 }
 
 impl LatticeEdge {
     fn new(edge: SampleEdge, side: i32) -> Self {
+        let SampleEdge { value, right, down } = edge;
         let last = i64::from(side - 1);
-        let (right, down) = (i64::from(edge.right) * last, i64::from(edge.down) * last);
+        let (all_right, all_down) = (i64::from(right) * last, i64::from(down) * last);
         Self {
-            edge,
-            least: right.min(0) + down.min(0),
-            most: right.max(0) + down.max(0),
+            value,
+            steps: EdgeSteps::new(right, down),
+            right_pixel: i64::from(right) * i64::from(side),
+            least: all_right.min(0) + all_down.min(0),
+            most: all_right.max(0) + all_down.max(0),
         }
     }
 }

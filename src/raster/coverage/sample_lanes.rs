@@ -1,22 +1,25 @@
-//! The samples of a pixel side by side in vectors, and which of them lie on one side of an edge: several at once.
+//! The samples of a pixel side by side in vectors, and which of them lie on one side of an edge: sixteen at once.
 //!
-//! An edge function is `value + right * column + down * row` at the points of a pixel's lattice. Coordinates on the lattice fit
-//! 8 bits and steps 32, so that with a value of fewer than 50 bits all of it is exact in 64-bit floats; and where the value is
-//! larger than that, it alone decides.
+//! An edge function is `value + right * column + down * row` at the points of a pixel's lattice. Columns and rows fit 8 bits and
+//! steps 31, so that each step is taken apart into `65536 * high + low`, where both parts fit 16 bits with a sign: of these a
+//! machine multiplies and adds two for each sample in one instruction. The same is done with the value, and sums of high and of
+//! low parts fit 32 bits. The whole is below zero where the high sum is, once the low one has carried over.
 
 #![expect(
     clippy::inline_always,
     reason = "a function that is not inlined into its dispatch loses the vector instructions"
 )]
 
-use fearless_simd::Simd;
 use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x16};
 
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::Span;
 
 /// The most samples that a pixel may have here: a bit for each.
 const MOST: usize = 64;
+
+/// Samples that are looked at together.
+pub(super) const TOGETHER: usize = 16;
 
 /// Jittered positions that are kept, by the lowest bits of their pixels' columns and rows.
 const KEPT_BITS: [u32; 2] = [6, 5];
@@ -26,23 +29,31 @@ const KEPT_BITS: [u32; 2] = [6, 5];
 pub(in crate::raster) struct SampleLanes {
     positions: SamplePositions,
     count: usize,
-    /// Where they lie: in every pixel, or in the one at work.
-    columns: [f64; MOST],
-    rows: [f64; MOST],
-    /// The latest pixels, each with its positions; none where all are the same.
+    /// The latest pixels, each with the places of its samples; none where all are the same.
     pixels: Vec<[i32; 2]>,
-    kept: Vec<Position>,
+    /// The places of [`TOGETHER`] samples each, of as many as a pixel has and more: of each of those pixels, or of all.
+    kept: Vec<[Position; TOGETHER]>,
+    /// The first ones of the pixel at work.
+    first: usize,
     memory: Vec<Position>,
 }
 
-/// An edge function in a pixel, in steps of its lattice.
+/// What an edge function gains from one point of a pixel's lattice to the next.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PixelEdge {
-    /// At the pixel's first point.
-    pub(super) value: i64,
-    /// What it gains one point to the right, and down.
+pub(super) struct EdgeSteps {
+    /// To the right and down.
     pub(super) right: i32,
     pub(super) down: i32,
+    /// Their high and their low parts, each pair in a word: that to the right lower.
+    high: u32,
+    low: u32,
+}
+
+/// The places of [`TOGETHER`] samples: a column and a row of the lattice for each.
+#[derive(Clone, Copy)]
+pub(super) struct SampleBlock<S: Simd> {
+    simd: S,
+    places: i16x32<S>,
 }
 
 impl SampleLanes {
@@ -52,23 +63,18 @@ impl SampleLanes {
         if count > MOST {
             return None;
         }
-        let pixels = if positions.are_same() {
-            0
-        } else {
-            1 << KEPT_BITS.iter().sum::<u32>()
-        };
+        let is_own = !positions.are_same();
+        let pixels = if is_own { 1 << KEPT_BITS.iter().sum::<u32>() } else { 0 };
         let mut lanes = Self {
             count,
-            columns: [0.0; MOST],
-            rows: [0.0; MOST],
             pixels: vec![[i32::MIN; 2]; pixels],
-            kept: vec![[0; 2]; pixels * count],
+            kept: vec![[[0; 2]; TOGETHER]; pixels.max(1) * count.div_ceil(TOGETHER)],
+            first: 0,
             memory: Vec::with_capacity(MOST),
             positions,
         };
-        if lanes.positions.are_same() {
-            let places = lanes.positions.of_pixel([0; 2], &mut lanes.memory);
-            set(&mut lanes.columns, &mut lanes.rows, places);
+        if !is_own {
+            lanes.keep([0; 2]);
         }
         Some(lanes)
     }
@@ -86,61 +92,75 @@ impl SampleLanes {
         }
         let [column, row] = [0, 1].map(|i| (pixel[i].cast_unsigned() & ((1 << KEPT_BITS[i]) - 1)) as usize);
         let at = row << KEPT_BITS[0] | column;
-        let kept = &mut self.kept[at * self.count..][..self.count];
+        self.first = at * self.count.div_ceil(TOGETHER);
         if self.pixels[at] != pixel {
             self.pixels[at] = pixel;
-            kept.copy_from_slice(self.positions.of_pixel(pixel, &mut self.memory));
+            self.keep(pixel);
         }
-        set(&mut self.columns, &mut self.rows, kept);
     }
 
-    /// The samples at which an edge function is not below zero, and maybe bits beyond the last sample.
+    /// Finds the places of the samples of a pixel, that at work.
+    #[inline(never)]
+    fn keep(&mut self, pixel: [i32; 2]) {
+        let places = self.positions.of_pixel(pixel, &mut self.memory);
+        let kept = self.kept[self.first..].as_flattened_mut();
+        kept[..places.len()].copy_from_slice(places);
+    }
+
+    /// All samples, and maybe some beyond the last, each block with the number of its first sample.
     #[inline(always)]
-    pub(super) fn inside<S: Simd>(&self, simd: S, edge: PixelEdge) -> u64 {
-        let lanes = S::f64s::LEN;
-        let number = |value: f64| S::f64s::splat(simd, value);
-        let (value, right, down) = (
-            number(edge.value as f64),
-            number(f64::from(edge.right)),
-            number(f64::from(edge.down)),
-        );
-        let mut bits = 0;
-        for first in (0..self.count).step_by(lanes) {
-            let column = S::f64s::from_slice(simd, &self.columns[first..first + lanes]);
-            let row = S::f64s::from_slice(simd, &self.rows[first..first + lanes]);
-            let at = (value + right * column) + down * row;
-            bits |= at.simd_ge(number(0.0)).to_bitmask() << first;
-        }
-        bits
-    }
-
-    /// The samples in some rows of the lattice, and maybe bits beyond the last sample.
-    #[inline(always)]
-    pub(super) fn in_rows<S: Simd>(&self, simd: S, rows: Span) -> u64 {
-        let edge = |value: i32, down| PixelEdge {
-            value: value.into(),
-            right: 0,
-            down,
-        };
-        self.inside(simd, edge(-rows.start, 1)) & self.inside(simd, edge(rows.end - 1, -1))
-    }
-
-    /// The number of a sample's row.
-    #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a whole number below 256"
-    )]
-    pub(super) fn row(&self, sample: usize) -> usize {
-        self.rows[sample % MOST] as usize
+    pub(super) fn blocks<S: Simd>(&self, simd: S) -> impl Iterator<Item = (usize, SampleBlock<S>)> {
+        let blocks = self.kept[self.first..][..self.count.div_ceil(TOGETHER)].iter();
+        let places = blocks.map(move |places| SampleBlock::new(simd, places));
+        (0..).step_by(TOGETHER).zip(places)
     }
 }
 
-#[inline(always)]
-fn set(columns: &mut [f64; MOST], rows: &mut [f64; MOST], places: &[Position]) {
-    for ((column, row), place) in columns.iter_mut().zip(rows).zip(places) {
-        [*column, *row] = place.map(f64::from);
+impl EdgeSteps {
+    /// Of an edge that gains so much one point to the right, and down: less than `2^31 - 2^15` each.
+    #[inline(always)]
+    pub(super) fn new(right: i32, down: i32) -> Self {
+        let high = [right, down].map(|step| (step + (1 << 15)) >> 16);
+        let low = [right - (high[0] << 16), down - (high[1] << 16)];
+        let word = |[right, down]: [i32; 2]| right.cast_unsigned() & 0xFFFF | down.cast_unsigned() << 16;
+        Self {
+            right,
+            down,
+            high: word(high),
+            low: word(low),
+        }
+    }
+}
+
+impl<S: Simd> SampleBlock<S> {
+    #[inline(always)]
+    fn new(simd: S, places: &[Position; TOGETHER]) -> Self {
+        let (first, second) = u8x32::from_slice(simd, places.as_flattened()).widen();
+        Self {
+            simd,
+            places: first.combine(second).bitcast(),
+        }
+    }
+
+    /// The samples at which an edge function is not below zero that has this value at the pixel's first point.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped, or sixteen bits")]
+    pub(super) fn inside(self, value: i64, steps: EdgeSteps) -> mask32x16<S> {
+        // Beyond that it alone decides, whatever the steps add.
+        const MOST: i64 = 1 << 30;
+        let sums = |steps: u32, value: i32| {
+            let steps: i16x32<S> = u32x16::splat(self.simd, steps).bitcast();
+            self.places.pairwise_dot_product(steps) + i32x16::splat(self.simd, value)
+        };
+        let high = sums(steps.high, (value >> 16).clamp(-MOST, MOST) as i32);
+        let low = sums(steps.low, (value & 0xFFFF) as i32);
+        (high + (low >> 16)).simd_ge(i32x16::splat(self.simd, 0))
+    }
+
+    /// The rows of the lattice that the samples lie in.
+    #[inline(always)]
+    pub(super) fn rows(self) -> i32x16<S> {
+        self.places.bitcast::<i32x16<S>>() >> 16
     }
 }
 
@@ -151,6 +171,18 @@ mod tests {
     use super::*;
     use crate::raster::{SamplePattern, SampleRate};
     use crate::simd;
+
+    /// The samples at which an edge function is not below zero, a bit for each, and the row of each of the first ones.
+    #[inline(always)]
+    fn found<S: Simd>(simd: S, lanes: &SampleLanes, value: i64, steps: EdgeSteps) -> (u64, Vec<i32>) {
+        let (mut inside, mut rows) = (0, Vec::new());
+        for (first, samples) in lanes.blocks(simd) {
+            inside |= samples.inside(value, steps).to_bitmask() << first;
+            rows.extend(samples.rows().to_array());
+        }
+        rows.truncate(lanes.count);
+        (inside & lanes.all(), rows)
+    }
 
     #[test]
     fn sides_of_edges_are_those_of_integers_on_every_level() {
@@ -168,33 +200,26 @@ mod tests {
                 let pixel = [u.int_in_range(0..=200)?, u.int_in_range(0..=200)?];
                 let mut memory = Vec::new();
                 let places = positions.of_pixel(pixel, &mut memory);
-                let shift = u.int_in_range(0..=30)?;
+                let shift = u.int_in_range(1..=30)?;
                 let mut step = || -> arbtest::arbitrary::Result<i32> { Ok(u.arbitrary::<i32>()? >> shift) };
                 let (right, down) = (step()?, step()?);
-                // Often exactly on the edge.
+                // Often exactly on the edge, and sometimes far from it.
                 let [column, row] = u.choose(places)?.map(i64::from);
-                let value = -(i64::from(right) * column + i64::from(down) * row) + u.int_in_range(-1..=1)?;
-                let edge = PixelEdge { value, right, down };
-                let start = u.int_in_range(0..=255)?;
-                let rows = Span {
-                    start,
-                    end: u.int_in_range(start..=256)?,
-                };
-                let bit = |is: bool, sample: usize| u64::from(is) << sample;
-                let (mut inside, mut in_rows) = (0, 0);
-                for (sample, [column, row]) in places.iter().enumerate() {
-                    let at = value + i64::from(right) * i64::from(*column) + i64::from(down) * i64::from(*row);
-                    inside |= bit(at >= 0, sample);
-                    in_rows |= bit((rows.start..rows.end).contains(&i32::from(*row)), sample);
-                }
+                let off = u.int_in_range(-1..=1)? << *u.choose(&[0, 0, 0, 20, 50])?;
+                let value = -(i64::from(right) * column + i64::from(down) * row) + off;
+                let at = |[column, row]: [i64; 2]| value + i64::from(right) * column + i64::from(down) * row;
+                let is_inside = places.iter().map(|place| at(place.map(i64::from)) >= 0);
+                let inside: u64 = (0..).zip(is_inside).map(|(sample, is)| u64::from(is) << sample).sum();
+                let rows: Vec<i32> = places.iter().map(|[_, row]| i32::from(*row)).collect();
                 lanes.go_to(pixel);
+                let steps = EdgeSteps::new(right, down);
                 for (name, level) in simd::tested() {
-                    let found = dispatch!(level, simd => (lanes.inside(simd, edge), lanes.in_rows(simd, rows)));
-                    let found = (found.0 & lanes.all(), found.1 & lanes.all());
-                    assert_eq!(found, (inside, in_rows), "{name}: {edge:?} {rows:?} {places:?}");
-                }
-                for (sample, [_, row]) in places.iter().enumerate() {
-                    assert_eq!(lanes.row(sample), usize::from(*row), "row of sample {sample}");
+                    let found = dispatch!(level, simd => found(simd, &lanes, value, steps));
+                    assert_eq!(
+                        found,
+                        (inside, Vec::clone(&rows)),
+                        "{name}: {value} {steps:?} {places:?}"
+                    );
                 }
             }
             Ok(())

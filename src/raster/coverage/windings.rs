@@ -42,6 +42,31 @@ impl RowWindings {
         (self.uneven == 0).then_some(self.steps[0])
     }
 
+    /// The winding of the first row.
+    #[inline]
+    pub(in crate::raster) fn of_first(&self) -> i32 {
+        self.steps[0]
+    }
+
+    /// Puts the rows that are wound around otherwise than the one above into `changes`, each with how much more.
+    pub(in crate::raster) fn changes(&self, changes: &mut Vec<(i32, i32)>) {
+        /// Most rows are as the one above: these are skipped together.
+        const TOGETHER: usize = 16;
+        changes.clear();
+        if self.uneven == 0 {
+            return;
+        }
+        let (_, [steps @ .., _]) = self.steps.split_at(1) else {
+            return;
+        };
+        for (steps, first) in steps.chunks(TOGETHER).zip((1..).step_by(TOGETHER)) {
+            if steps.iter().fold(0, |all, step| all | step) != 0 {
+                let changed = (first..).zip(steps).filter(|(_, step)| **step != 0);
+                changes.extend(changed.map(|(row, step)| (row, *step)));
+            }
+        }
+    }
+
     /// Puts the windings of all rows, and one more, into `rows`.
     pub(in crate::raster) fn of_rows(&self, rows: &mut Vec<i32>) {
         rows.clear();
@@ -69,7 +94,7 @@ mod tests {
     fn windings_are_those_of_a_counter_per_row() {
         let mut windings = RowWindings::default();
         arbtest::arbtest(|u| {
-            let count: i32 = u.int_in_range(1..=9)?;
+            let count: i32 = u.int_in_range(1..=40)?;
             let mut rows = vec![0; usize::try_from(count).expect("a few")];
             let mut added = Vec::new();
             windings.begin(count);
@@ -88,6 +113,18 @@ mod tests {
                 let mut found = Vec::new();
                 windings.of_rows(&mut found);
                 assert_eq!(found[..rows.len()], rows, "row by row");
+                let mut changes = Vec::new();
+                windings.changes(&mut changes);
+                let expected: Vec<(i32, i32)> = (1..)
+                    .zip(rows.windows(2))
+                    .map(|(row, pair)| (row, pair[1] - pair[0]))
+                    .filter(|(_, change)| *change != 0)
+                    .collect();
+                assert_eq!(
+                    (windings.of_first(), changes),
+                    (rows[0], expected),
+                    "changes of {rows:?}"
+                );
             }
             windings.forget(added.into_iter());
             Ok(())

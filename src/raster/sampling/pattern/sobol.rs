@@ -11,7 +11,8 @@
 
 use std::sync::Arc;
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, u16x32, u32x16};
 
 use super::arrange::{Arrange, Place, Position, with_places};
 use super::random_bits::first_sixteen;
@@ -26,13 +27,29 @@ pub(super) struct Sobol;
 /// The hash carries from lower to higher bits only. A place on the lattice takes eight bits, and so none above them has to be
 /// known: numbers of 16 bits, of which every machine multiplies eight at once.
 #[derive(Debug)]
-struct Points(Vec<[u16; 2]>);
+struct Points {
+    count: usize,
+    /// [`TOGETHER`] at a time, the last ones followed by others.
+    blocks: Vec<[[u16; 2]; TOGETHER]>,
+}
+
+/// Points that are scrambled together.
+const TOGETHER: usize = 16;
 
 impl Arrange for Sobol {
     fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
         let first = |part: u32| first_sixteen(part.reverse_bits().into());
-        let points = (0..rate.samples()).map(point);
-        Arc::new(Points(points.map(|[x, y]| [first(x), first(y)]).collect()))
+        let block = |number: u32| {
+            let mut block = [[0; 2]; TOGETHER];
+            for (point, number) in block.iter_mut().zip(number..) {
+                *point = self::point(number).map(first);
+            }
+            block
+        };
+        Arc::new(Points {
+            count: rate.samples() as usize,
+            blocks: (0..rate.samples()).step_by(TOGETHER).map(block).collect(),
+        })
     }
 }
 
@@ -44,42 +61,63 @@ impl Place for Points {
 
 impl Points {
     #[inline(always)]
-    fn place_with<S: Simd>(&self, _: S, pixels: &[u64], places: &mut Vec<Position>) {
-        for (random, places) in with_places(pixels, self.0.len(), places) {
-            let (across, down) = (Scramble::new(random), Scramble::new(random >> 32));
-            for (place, [x, y]) in places.iter_mut().zip(&self.0) {
-                *place = [across.byte(*x), down.byte(*y)];
+    fn place_with<S: Simd>(&self, simd: S, pixels: &[u64], places: &mut Vec<Position>) {
+        for (random, places) in with_places(pixels, self.count, places) {
+            let scramble = Scramble::new(simd, random);
+            for (places, block) in places.chunks_mut(TOGETHER).zip(&self.blocks) {
+                let found = scramble.places(block);
+                match places.as_chunks_mut() {
+                    ([all], []) => *all = found,
+                    _ => places.copy_from_slice(&found[..places.len()]),
+                }
             }
         }
     }
 }
 
-/// Turns over each bit as a hash of those before it says.
-#[derive(Clone, Copy, Debug)]
-struct Scramble {
-    added: u16,
-    factor: u16,
+/// Turns over each bit as a hash of those before it says: of columns and rows by turns.
+#[derive(Clone, Copy)]
+struct Scramble<S: Simd> {
+    simd: S,
+    added: u16x32<S>,
+    factor: u16x32<S>,
 }
 
-impl Scramble {
-    /// By the lower half of these bits.
-    fn new(random: u64) -> Self {
+impl<S: Simd> Scramble<S> {
+    /// Columns by the lower half of these bits, rows by the upper one.
+    #[inline(always)]
+    fn new(simd: S, random: u64) -> Self {
+        let [across, down] = [random, random >> 32];
+        let by_turns = |column: u16, row: u16| {
+            let pair = u32::from(column) | u32::from(row) << 16;
+            u32x16::splat(simd, pair).bitcast()
+        };
         Self {
-            added: first_sixteen(random),
-            factor: first_sixteen(random >> 16) | 1,
+            simd,
+            added: by_turns(first_sixteen(across), first_sixteen(down)),
+            factor: by_turns(first_sixteen(across >> 16) | 1, first_sixteen(down >> 16) | 1),
         }
     }
 
-    /// The place on the lattice of a coordinate that begins with these bits, the first one lowest.
+    /// The places on the lattice of points whose coordinates begin with these bits, the first one lowest.
     #[inline(always)]
-    fn byte(self, mut bits: u16) -> u8 {
-        bits ^= bits.wrapping_mul(0xADEA);
-        bits = bits.wrapping_add(self.added);
-        bits = bits.wrapping_mul(self.factor);
-        bits ^= bits.wrapping_mul(0x6C56);
-        bits ^= bits.wrapping_mul(0x2864);
-        let [low, _] = bits.to_le_bytes();
-        low.reverse_bits()
+    fn places(self, points: &[[u16; 2]; TOGETHER]) -> [Position; TOGETHER] {
+        let number = |number| u16x32::splat(self.simd, number);
+        let mut bits = u16x32::from_slice(self.simd, points.as_flattened());
+        bits ^= bits * number(0xADEA);
+        bits += self.added;
+        bits *= self.factor;
+        bits ^= bits * number(0x6C56);
+        bits ^= bits * number(0x2864);
+        // The lower byte, mirrored: its halves, quarters and bits change places.
+        for (shift, low) in [(4, 0x0F), (2, 0x33), (1, 0x55)] {
+            let low = number(low);
+            bits = (bits >> shift) & low | (bits & low) << shift;
+        }
+        let (first, second) = bits.split();
+        let mut found = [[0; 2]; TOGETHER];
+        first.narrow(second).store_slice(found.as_flattened_mut());
+        found
     }
 }
 

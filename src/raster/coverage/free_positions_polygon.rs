@@ -160,6 +160,9 @@ impl FreePositionsPolygon {
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
             self.sweep.gather(outline, area.x, y);
+            if let PixelSamples::Few(lanes) = samples {
+                lanes.prepare(self.sweep.crossed());
+            }
             self.row(simd, samples);
         }
         self.starts.push(self.runs.len());
@@ -192,34 +195,46 @@ impl FreePositionsPolygon {
         self.sweep.windings.begin(grid.side());
         let mut next = 0;
         let mut x = columns.start;
+        // Where pixels end that no edge crosses, but whose rows are wound around otherwise, each by its samples.
+        let mut uneven_end = x;
         while x < columns.end {
             next = self.sweep.go_to(x, next);
-            if self.sweep.active.is_empty()
-                && let Some(winding) = self.sweep.windings.even()
-            {
-                let end = self
-                    .sweep
-                    .edges
-                    .get(next)
-                    .map_or(columns.end, |edge| edge.from.min(columns.end));
-                if rule.encloses(winding) {
-                    self.push(first_run, Span { start: x, end }, None);
+            if self.sweep.active.is_empty() {
+                let next_edge = self.sweep.edges.get(next);
+                let end = next_edge.map_or(columns.end, |edge| edge.from.min(columns.end));
+                if let Some(winding) = self.sweep.windings.even() {
+                    if rule.encloses(winding) {
+                        self.push(first_run, Span { start: x, end }, None);
+                    }
+                    x = end;
+                    continue;
                 }
-                x = end;
-                continue;
+                if let PixelSamples::Few(lanes) = samples
+                    && x >= uneven_end
+                {
+                    lanes.prepare((x..end).map(|x| [x, y]));
+                    uneven_end = end;
+                }
             }
-            let mask = match samples {
+            let pixel = Span { start: x, end: x + 1 };
+            match samples {
                 PixelSamples::Few(lanes) => {
                     lanes.go_to([x, y]);
-                    SampleMask::of_bits(self.sweep.enclosed_bits(simd, x, lanes))
+                    let bits = self.sweep.enclosed_bits(simd, x, lanes);
+                    if bits == lanes.all() {
+                        self.push(first_run, pixel, None);
+                    } else if bits != 0 {
+                        self.push(first_run, pixel, Some(SampleMask::of_bits(bits)));
+                    }
                 }
-                PixelSamples::Many(places, memory) => self.sweep.enclosed(x, places.of_pixel([x, y], memory)),
-            };
-            let pixel = Span { start: x, end: x + 1 };
-            if mask == self.all {
-                self.push(first_run, pixel, None);
-            } else if !mask.is_empty() {
-                self.push(first_run, pixel, Some(mask));
+                PixelSamples::Many(places, memory) => {
+                    let mask = self.sweep.enclosed(x, places.of_pixel([x, y], memory));
+                    if mask == self.all {
+                        self.push(first_run, pixel, None);
+                    } else if !mask.is_empty() {
+                        self.push(first_run, pixel, Some(mask));
+                    }
+                }
             }
             x += 1;
         }
@@ -294,6 +309,17 @@ impl Sweep {
             });
         }
         self.edges.sort_unstable_by_key(|edge| edge.from);
+    }
+
+    /// The pixels of the row that edges may cross, from left to right.
+    fn crossed(&self) -> impl Iterator<Item = [i32; 2]> {
+        let (y, Span { start, end }) = (self.y, self.columns);
+        let mut next = start;
+        self.edges.iter().flat_map(move |edge| {
+            let xs = edge.from.max(next)..(edge.to + 1).min(end);
+            next = next.max(xs.end);
+            xs.map(move |x| [x, y])
+        })
     }
 
     /// Finds the edges that may cross a pixel, where `next` is the first edge that none before it reached: those that lie left

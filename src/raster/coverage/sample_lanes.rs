@@ -21,8 +21,11 @@ const MOST: usize = 64;
 /// Samples that are looked at together.
 pub(super) const TOGETHER: usize = 16;
 
-/// Jittered positions that are kept, by the lowest bits of their pixels' columns and rows.
-const KEPT_BITS: [u32; 2] = [6, 5];
+/// The pixels whose own positions are kept: all of a tile, or a row of as many.
+const KEPT: usize = 1 << 11;
+
+/// By how much rows of pixels are shifted among them: no tile is wider.
+const ROW_BITS: u32 = 6;
 
 /// The samples of one pixel after the other.
 #[derive(Debug)]
@@ -35,6 +38,9 @@ pub(in crate::raster) struct SampleLanes {
     kept: Vec<[Position; TOGETHER]>,
     /// The first ones of the pixel at work.
     first: usize,
+    /// Pixels whose places are to be found, as they are kept, with the random bits that say so, and memory for what is found.
+    missing: Vec<usize>,
+    random: Vec<u64>,
     memory: Vec<Position>,
 }
 
@@ -63,18 +69,20 @@ impl SampleLanes {
         if count > MOST {
             return None;
         }
-        let is_own = !positions.are_same();
-        let pixels = if is_own { 1 << KEPT_BITS.iter().sum::<u32>() } else { 0 };
+        let pixels = if positions.are_same() { 0 } else { KEPT };
         let mut lanes = Self {
             count,
             pixels: vec![[i32::MIN; 2]; pixels],
             kept: vec![[[0; 2]; TOGETHER]; pixels.max(1) * count.div_ceil(TOGETHER)],
             first: 0,
-            memory: Vec::with_capacity(MOST),
+            missing: Vec::new(),
+            random: Vec::new(),
+            memory: Vec::new(),
             positions,
         };
-        if !is_own {
-            lanes.keep([0; 2]);
+        if lanes.positions.are_same() {
+            let places = lanes.positions.of_pixel([0; 2], &mut lanes.memory);
+            lanes.kept.as_flattened_mut()[..count].copy_from_slice(places);
         }
         Some(lanes)
     }
@@ -90,21 +98,43 @@ impl SampleLanes {
         if self.pixels.is_empty() {
             return;
         }
-        let [column, row] = [0, 1].map(|i| (pixel[i].cast_unsigned() & ((1 << KEPT_BITS[i]) - 1)) as usize);
-        let at = row << KEPT_BITS[0] | column;
-        self.first = at * self.count.div_ceil(TOGETHER);
+        let at = kept_at(pixel);
         if self.pixels[at] != pixel {
-            self.pixels[at] = pixel;
-            self.keep(pixel);
+            self.prepare([pixel].into_iter());
         }
+        self.first = at * self.count.div_ceil(TOGETHER);
     }
 
-    /// Finds the places of the samples of a pixel, that at work.
-    #[inline(never)]
-    fn keep(&mut self, pixel: [i32; 2]) {
-        let places = self.positions.of_pixel(pixel, &mut self.memory);
-        let kept = self.kept[self.first..].as_flattened_mut();
-        kept[..places.len()].copy_from_slice(places);
+    /// Finds the places of the samples of pixels that are about to be gone to: together they cost far less.
+    pub(super) fn prepare(&mut self, pixels: impl Iterator<Item = [i32; 2]>) {
+        if self.pixels.is_empty() {
+            return;
+        }
+        self.missing.clear();
+        self.random.clear();
+        // More would take the place of the first ones.
+        for pixel in pixels.take(KEPT) {
+            let at = kept_at(pixel);
+            if self.pixels[at] != pixel {
+                self.pixels[at] = pixel;
+                self.missing.push(at);
+                self.random.push(self.positions.random(pixel));
+            }
+        }
+        if self.missing.is_empty() {
+            return;
+        }
+        self.memory.clear();
+        self.positions.add(&self.random, &mut self.memory);
+        let blocks = self.count.div_ceil(TOGETHER);
+        for (at, places) in self.missing.iter().zip(self.memory.chunks_exact(self.count)) {
+            let kept = &mut self.kept[at * blocks..][..blocks];
+            let (full, rest) = places.as_chunks();
+            kept[..full.len()].copy_from_slice(full);
+            if let Some(last) = kept.get_mut(full.len()) {
+                last[..rest.len()].copy_from_slice(rest);
+            }
+        }
     }
 
     /// All samples, and maybe some beyond the last, each block with the number of its first sample.
@@ -114,6 +144,12 @@ impl SampleLanes {
         let places = blocks.map(move |places| SampleBlock::new(simd, places));
         (0..).step_by(TOGETHER).zip(places)
     }
+}
+
+/// Which of those that are kept a pixel is.
+#[inline(always)]
+fn kept_at([x, y]: [i32; 2]) -> usize {
+    x.wrapping_add(y << ROW_BITS).cast_unsigned() as usize % KEPT
 }
 
 impl EdgeSteps {
@@ -211,6 +247,11 @@ mod tests {
                 let is_inside = places.iter().map(|place| at(place.map(i64::from)) >= 0);
                 let inside: u64 = (0..).zip(is_inside).map(|(sample, is)| u64::from(is) << sample).sum();
                 let rows: Vec<i32> = places.iter().map(|[_, row]| i32::from(*row)).collect();
+                if u.arbitrary()? {
+                    // Some of them in its place.
+                    let before = pixel[0] - u.int_in_range(0..=5)? * 1000;
+                    lanes.prepare((before..before + 2010).map(|x| [x, pixel[1]]));
+                }
                 lanes.go_to(pixel);
                 let steps = EdgeSteps::new(right, down);
                 for (name, level) in simd::tested() {

@@ -38,6 +38,9 @@ const UNCERTAIN: i32 = 4;
 /// How far samples may lie from their pixel's centre, in texels: with the largest level on one side of them, columns and rows
 /// fit 16 bits.
 const FARTHEST: f64 = 8000.0;
+/// Centres outside a level are brought so near that all samples stay this far from it, in texels. One would do; no simple fraction
+/// leaves samples on the edges of texels, where each would be read again by itself.
+const AWAY: f64 = 1.381_966;
 /// Coordinates below this are exact to far less than a unit, however large the numbers that they are sums of.
 const LARGEST: f64 = (1_u64 << 30) as f64;
 /// No list reaches further from the pixel that it is counted from, in samples.
@@ -103,7 +106,7 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
 impl<const N: usize> Offsets<N> {
     fn new(axis: &Axis, side: u32) -> Option<Self> {
         let middle = f64::from(side - 1) / 2.0;
-        let reach = (axis.right.abs() + axis.down.abs()) * middle + 1.0;
+        let reach = (axis.right.abs() + axis.down.abs()) * middle + AWAY;
         let mut of_samples = [0; N];
         for (j, row) in of_samples
             .chunks_exact_mut(side as usize)
@@ -317,4 +320,31 @@ fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32
         }
     }
     sums.map(|sum: i32| sum.cast_unsigned() << 8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Else every pixel beyond the border would be read sample by sample: nine times as long.
+    #[test]
+    fn pixels_far_outside_a_level_are_certain() {
+        const ONE: i32 = 1 << FRACTION_BITS;
+        for (right, down) in [(0.25, 0.0), (0.0, -0.7), (0.3, 0.3), (1.0, 0.5), (-2.0, 1.25)] {
+            let axis = Axis {
+                at_pivot: 0.0,
+                right,
+                down,
+                last: 63.0,
+            };
+            for side in [2, 3, 4] {
+                let offsets = Offsets::<FEW>::new(&axis, side).expect("not too far");
+                for centre in [-offsets.reach, axis.last + offsets.reach] {
+                    let places = offsets.of_samples[..(side * side) as usize].iter();
+                    let least = places.map(|offset| (to_units(centre) + offset) & (ONE - 1)).min();
+                    assert!(least >= Some(UNCERTAIN), "{right}, {down} at {side}: {least:?}");
+                }
+            }
+        }
+    }
 }

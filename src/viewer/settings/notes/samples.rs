@@ -3,9 +3,9 @@
 use super::ValueNote;
 
 /// What a pattern other than the grid costs that has one set of places.
-const SAME_PLACES: &str = "about four times the grid's time at 16 samples";
+const SAME_PLACES: &str = "about twice the grid's time at 16 samples";
 /// The same of patterns that place samples anew in each pixel.
-const OWN_PLACES: &str = "about five times the grid's time at 16 samples";
+const OWN_PLACES: &str = "about three times the grid's time at 16 samples";
 
 /// What patterns are compared with.
 const GRID: &str = "pattern grid";
@@ -200,42 +200,42 @@ pub(super) const PIXELS: &[ValueNote] = &[
     filter(
         "tent",
         "Weighs samples up to a pixel away, less the farther they are",
-        "about four times the time of the box at 16 samples, and blurs a little; it never rings",
+        "about three times the time of the box at 16 samples, and blurs a little; it never rings",
     ),
     filter(
         "gaussian",
         "Weighs samples up to 1.5 pixels away by a bell curve",
-        "about four times the time of the box at 16 samples, and blurs; it never rings",
+        "about three times the time of the box at 16 samples, and blurs; it never rings",
     ),
     filter(
         "b-spline",
         "Weighs samples up to two pixels away by a cubic bell: the fewest aliases of all",
-        "about five times the time of the box at 16 samples, and blurs most; it never rings",
+        "about three times the time of the box at 16 samples, and blurs most; it never rings",
     ),
     filter(
         "catmull-rom",
         "Weighs samples up to two pixels away, some below zero: a sharp cubic",
-        "about five times the time of the box at 16 samples, and rings at edges",
+        "about three times the time of the box at 16 samples, and rings at edges",
     ),
     filter(
         "mitchell",
         "Weighs samples up to two pixels away, some below zero: a cubic between blur and ringing",
-        "about five times the time of the box at 16 samples, and blurs and rings a little",
+        "about three times the time of the box at 16 samples, and blurs and rings a little",
     ),
     filter(
         "lanczos2",
         "A windowed sinc up to two pixels away: as sharp as Catmull-Rom's",
-        "about five times the time of the box at 16 samples, and rings at edges",
+        "about three times the time of the box at 16 samples, and rings at edges",
     ),
     filter(
         "lanczos3",
         "A windowed sinc up to three pixels away: the sharpest",
-        "about six times the time of the box at 16 samples, and rings most",
+        "about four times the time of the box at 16 samples, and rings most",
     ),
     filter(
         "blackman-harris",
         "A window up to 1.5 pixels away, close to a Gaussian that ends smoothly",
-        "about four times the time of the box at 16 samples, and blurs a little; it never rings",
+        "about three times the time of the box at 16 samples, and blurs a little; it never rings",
     ),
     ValueNote::new(
         "resolve",

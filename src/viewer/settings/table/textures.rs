@@ -19,7 +19,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Catmull-Rom is the sharpest and rings at edges, the B-spline blurs, Mitchell lies between; sixteen texels cost about seven times as much as the nearest",
+            more: "Catmull-Rom is the sharpest and rings at edges, the B-spline blurs, Mitchell lies between; sixteen texels cost four to seven times as much as the nearest",
             keys: &[Chord::char('p')],
             ..SettingCommand::new(
                 "pixel-sampling",
@@ -37,7 +37,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Filters read across the border then, so that the first texels take on the colour of the last ones; every sample is filtered by itself, which costs several times as much",
+            more: "Filters read across the border then, so that the first texels take on the colour of the last ones; what is filtered takes up to twice as long",
             ..SettingCommand::new(
                 "texture-wrap",
                 "Texture wrap",
@@ -54,7 +54,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "An ellipse blurs least and costs some twenty times level zero; a box from sums, some eight times, and a ripmap, some three, blur what lies across the axes",
+            more: "An ellipse blurs least and costs some fifteen times level zero at 16 samples; a box from sums, some seven times, and a ripmap, some three, blur what lies across the axes",
             keys: &[Chord::char('l')],
             ..SettingCommand::new(
                 "level-sampling",

@@ -48,12 +48,14 @@ pub(super) fn page(words: &[OsString]) -> Option<String> {
         return None;
     };
     let (_, text) = PAGES.iter().find(|(page, _)| help == "help" && name == page)?;
-    Some(
-        text.replace(KEYS, commands::markdown().trim())
-            .replace(SETTINGS, settings().trim_end())
-            .replace(PATTERNS, patterns().trim_end())
-            .replace(VISUALISATIONS, visualisations().trim_end()),
-    )
+    let text = text
+        .replace(KEYS, commands::markdown().trim())
+        .replace(SETTINGS, settings().trim_end())
+        .replace(PATTERNS, patterns().trim_end())
+        .replace(VISUALISATIONS, visualisations().trim_end());
+    // What is left of comments tells where a measured table begins and ends.
+    let lines = text.split_inclusive('\n').filter(|line| !line.starts_with("<!--"));
+    Some(lines.collect())
 }
 
 /// The man page that the words of a command line ask for, if they ask for one: of the program or of one of its commands.

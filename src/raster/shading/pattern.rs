@@ -69,11 +69,12 @@ impl PatternShader<'_> {
 
 impl Shade for PatternShader<'_> {
     fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
-        let origin = DVec2::from(grid.origin.map(f64::from));
         let side = f64::from(grid.side);
+        let origin = DVec2::from(grid.origin.map(f64::from)) * side + 0.5;
         for (point, color) in points.iter().zip(colors) {
-            let inside = DVec2::from(point.map(f64::from)) + 0.5;
-            *color = self.color(origin + inside / side);
+            // Halves add up without rounding, so that a sample on the edge of a texel reads the same one from every origin.
+            let sample = origin + DVec2::from(point.map(f64::from));
+            *color = self.color(sample / side);
         }
     }
 
@@ -98,6 +99,43 @@ mod tests {
 
     use super::*;
     use crate::texture::Tile;
+
+    #[test]
+    fn samples_on_the_edge_of_a_texel_read_the_same_from_every_origin() {
+        let tile = Tile::new([2, 1], &[0xFFFF_0000, 0xFF00_00FF]).expect("two texels");
+        for side in [3, 5, 6, 7] {
+            let units = f64::from(side);
+            let pattern = PlacedPattern {
+                tile: Some(Arc::new(tile.clone())),
+                // Every second sample begins a copy, as exactly as numbers can say it.
+                from_pixels: DAffine2::from_scale_angle_translation(
+                    DVec2::new(units / 2.0, 1.0),
+                    0.0,
+                    DVec2::new(-0.25, 0.0),
+                ),
+                opacity: 1.0,
+            };
+            let shader = PatternShader {
+                pattern: &pattern,
+                sampling: PixelSampling::Nearest,
+                opacity: Premultiplied16::ONE,
+            };
+            let colors = |origin: i32| {
+                let grid = SampleGrid {
+                    origin: [origin, 0],
+                    side,
+                };
+                let first = u16::try_from((100 - origin).unsigned_abs() * side).expect("to the right");
+                let points: Vec<[u16; 2]> = (first..first + 90).map(|x| [x, 0]).collect();
+                let mut colors = vec![Premultiplied16::TRANSPARENT; points.len()];
+                shader.points(grid, &points, &mut colors);
+                colors
+            };
+            for origin in [0, 30, 62, 97] {
+                assert!(colors(origin) == colors(64), "{side} samples from {origin}");
+            }
+        }
+    }
 
     #[test]
     fn every_sample_reads_the_tile_where_it_lies() {

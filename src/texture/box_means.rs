@@ -201,63 +201,38 @@ fn each_mean<S: Simd>(
                 let (top, bottom) = (y.at[0][lane] as usize * stride, y.at[1][lane] as usize * stride);
                 let left = strips(simd, sums, stride, [top + left, bottom + left]);
                 let right = strips(simd, sums, stride, [top + right, bottom + right]);
-                let down = [y.parts[0][lane], y.parts[1][lane]];
-                let between: f32x8<S> = weighed_rows(
-                    signed(right[0] - left[0]),
-                    signed(right[1] - left[1]),
-                    signed(right[2] - left[2]),
-                    down,
-                );
-                let before: f32x4<S> = weighed_rows(step(left[0]), step(left[1]), step(left[2]), down);
-                let (last, next) = between.split();
-                let [to, more] = [x.parts[0][lane], x.parts[1][lane]];
-                let sum = last * (1.0 - to) + next * to + before * more;
+                let weights = [1.0, y.parts[0][lane], y.parts[1][lane]];
+                let mut wide = f32x8::splat(simd, 0.0);
+                let mut narrow = f32x4::splat(simd, 0.0);
+                for i in 0..3 {
+                    let (before, after) = (right[i] - left[i]).split();
+                    let signed: i32x8<S> = before.combine(after - before).bitcast();
+                    wide += signed.to_float::<f32x8<S>>() * weights[i];
+                    let (before, after) = left[i].split();
+                    let signed: i32x4<S> = (after - before).bitcast();
+                    narrow += signed.to_float::<f32x4<S>>() * weights[i];
+                }
+                let (all, more) = wide.split();
+                let sum = all + more * x.parts[0][lane] + narrow * x.parts[1][lane];
                 visit(lane, Some(sum * per_texel + ROUNDING - ROUNDING));
             }
         },
     );
 }
 
+/// A number of a table and the next.
+#[inline(always)]
+fn two<S: Simd>(simd: S, sums: &[[u32; 4]], at: usize) -> u32x8<S> {
+    u32x8::from_slice(simd, sums[at..at + 2].as_flattened())
+}
+
 /// From four rows of a table, each of the last and the next numbers before a border, the differences that [`Borders::parts`]
 /// weighs: both rows above the box and both below it begin at `[above, below]` and one row later.
 #[inline(always)]
 fn strips<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, [above, below]: [usize; 2]) -> [u32x8<S>; 3] {
-    let [first, second] = two_rows(simd, sums, stride, above);
-    let [third, fourth] = two_rows(simd, sums, stride, below);
+    let (first, second) = (two(simd, sums, above), two(simd, sums, above + stride));
+    let (third, fourth) = (two(simd, sums, below), two(simd, sums, below + stride));
     [third - first, (fourth - third) - (second - first), second - first]
-}
-
-/// A number of a table and the next, and those below them.
-#[inline(always)]
-fn two_rows<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, at: usize) -> [u32x8<S>; 2] {
-    // Bounds are checked once for all.
-    let sums = &sums[at..][..stride + 2];
-    [
-        u32x8::from_slice(simd, sums[..2].as_flattened()),
-        u32x8::from_slice(simd, sums[stride..].as_flattened()),
-    ]
-}
-
-/// Differences of sums, which may be below zero.
-#[inline(always)]
-fn signed<S: Simd>(difference: u32x8<S>) -> f32x8<S> {
-    difference.bitcast::<i32x8<S>>().to_float()
-}
-
-/// From the first of two numbers to the second.
-#[inline(always)]
-fn step<S: Simd>(numbers: u32x8<S>) -> f32x4<S> {
-    let (last, next) = numbers.split();
-    (next - last).bitcast::<i32x4<S>>().to_float()
-}
-
-/// What the box holds of rows, from the three differences of [`strips`].
-#[inline(always)]
-fn weighed_rows<V>(all: V, more: V, first: V, [to, beyond]: [f32; 2]) -> V
-where
-    V: std::ops::Mul<f32, Output = V> + std::ops::Add<Output = V>,
-{
-    all + more * to + first * beyond
 }
 
 /// The whole number in the lowest bits.

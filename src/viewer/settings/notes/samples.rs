@@ -179,7 +179,7 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "coverage",
         "sampled",
         "Samples tell how much of a pixel a primitive covers",
-        "time for every sample, and gives no more shades than samples",
+        "time for every sample, and gives no more shades than they can tell apart",
     ),
     ValueNote::new(
         "coverage",

@@ -156,7 +156,7 @@ pub(super) const NOTES: &[ValueNote] = &[
     ValueNote::new(
         "lod-by",
         "longer",
-        "Chooses the mip level by the longer side of the footprint: never sparkles",
+        "Chooses the mip level by the longer side of the footprint: sparkles least",
         "nothing, and blurs what is seen at a slant",
     ),
     ValueNote::new(

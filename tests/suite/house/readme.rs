@@ -10,6 +10,8 @@ use rasterscope::render::Visualisation;
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{commands, picture};
 
+use crate::support::golden::check_table;
+
 const START: &str = "<!-- keys: made by the command table, `BLESS=1 cargo test readme` writes it anew -->\n";
 const END: &str = "<!-- /keys -->";
 const STUDY: &str = "<!-- study: made by `benches/study` -->\n";
@@ -17,19 +19,7 @@ const STUDY_END: &str = "<!-- /study -->";
 
 #[test]
 fn readme_holds_the_key_table_of_the_program() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let text = fs::read_to_string(&path).expect("the README");
-    let (before, rest) = text.split_once(START).expect("the table's beginning");
-    let (table, after) = rest.split_once(END).expect("the table's end");
-    let expected = format!("\n{}\n", commands::markdown().trim());
-    if table.trim() == expected.trim() {
-        return;
-    }
-    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
-        fs::write(&path, format!("{before}{START}{expected}\n{END}{after}")).expect("a writable README");
-        panic!("the README's key table was written anew");
-    }
-    panic!("the README's key table is not the program's: run with BLESS=1");
+    check_table("README.md", [START, END], &commands::markdown());
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! What the reference says of values: each has a note, and wins and loses where the note says so, by the figures of its table.
 
 use std::collections::{BTreeSet, HashMap};
-use std::fs;
-use std::path::Path;
 
 use rasterscope::compare::Pair;
 use rasterscope::geometry::View;
@@ -11,6 +9,7 @@ use rasterscope::render::RenderSettings;
 use rasterscope::scene::Scene;
 use rasterscope::viewer::{BoardEntry, Settings, Study, ValueNote, notes, picture};
 
+use crate::support::golden::check_table;
 use crate::support::scenes::{drawn, gallery_scene};
 
 const START: &str = "<!-- values: measured, `BLESS=1 cargo test values` writes it anew -->\n";
@@ -135,17 +134,5 @@ fn values_win_and_lose_where_the_reference_says_so() {
         ));
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-    let table = lines.concat();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cli/help/values.md");
-    let text = fs::read_to_string(&path).expect("the page");
-    let (before, rest) = text.split_once(START).expect("the table's beginning");
-    let (found, after) = rest.split_once(END).expect("the table's end");
-    if found.trim() == table.trim() {
-        return;
-    }
-    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
-        fs::write(&path, format!("{before}{START}\n{table}\n{END}{after}")).expect("a writable page");
-        panic!("the table of values was written anew");
-    }
-    panic!("the table of values is not what is measured: run with BLESS=1");
+    check_table("src/cli/help/values.md", [START, END], &lines.concat());
 }

@@ -35,6 +35,26 @@ pub(crate) fn check(name: &str, frame: &Framebuffer, tolerance: u8) -> Result<()
     Err(problem)
 }
 
+/// Holds a table in the project's document `file`, between the lines `start` and `end`, against the one that it should be.
+///
+/// # Panics
+/// Where it is another one; blessed, it is written anew first.
+pub(crate) fn check_table(file: &str, [start, end]: [&str; 2], expected: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let text = fs::read_to_string(&path).expect("the document");
+    let (before, rest) = text.split_once(start).expect("the table's beginning");
+    let (found, after) = rest.split_once(end).expect("the table's end");
+    let expected = expected.trim();
+    if found.trim() == expected {
+        return;
+    }
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        fs::write(&path, format!("{before}{start}\n{expected}\n\n{end}{after}")).expect("a writable document");
+        panic!("the table in {file} was written anew");
+    }
+    panic!("the table in {file} is another one now: run with BLESS=1");
+}
+
 /// Where the golden pictures lie.
 pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden")

@@ -5,6 +5,7 @@ mod blend_all;
 mod colormap;
 mod light;
 mod mix;
+mod over;
 mod ramp;
 mod resolve;
 mod resolver;
@@ -206,42 +207,6 @@ impl Premultiplied16 {
         self.0[3] == Self::ONE
     }
 
-    /// Source-over: this colour painted over `below` (Porter and Duff, "Compositing digital images", 1984). Under the
-    /// course's rules the result is truncated to bytes, as its 8-bit store does after every write.
-    #[inline]
-    #[must_use]
-    pub fn over(self, below: Self, rules: Rules) -> Self {
-        let rest = u32::from(Self::ONE - self.0[3]);
-        let mixed = std::array::from_fn(|i| {
-            let sum = u32::from(self.0[i]) + div_one(u32::from(below.0[i]) * rest);
-            u16::try_from(sum).unwrap_or(Self::ONE).min(Self::ONE)
-        });
-        match rules {
-            Rules::Standard | Rules::Float => Self(mixed),
-            Rules::Course => Self(mixed).truncated(),
-        }
-    }
-
-    /// Paints this colour over many; as [`Premultiplied16::over`] for each, in a loop that compilers turn into vector code.
-    #[inline]
-    pub fn over_all(self, below: &mut [Self], rules: Rules) {
-        let rest = u32::from(Self::ONE - self.0[3]);
-        let above = self.0.map(u32::from);
-        let step = match rules {
-            Rules::Standard | Rules::Float => 1,
-            Rules::Course => Self::PER_BYTE,
-        };
-        // A power of two: to multiples of it by clearing the bits below.
-        let kept = !(step - 1);
-        for color in below {
-            for (channel, above) in color.0.iter_mut().zip(above) {
-                // Neither operand exceeds `ONE`, so that the sum fits 17 bits.
-                let sum = above + div_one(u32::from(*channel) * rest);
-                *channel = low_quarter(sum.min(u32::from(Self::ONE))) & kept;
-            }
-        }
-    }
-
     /// The same colour at a fraction of its opacity.
     #[inline]
     #[must_use]
@@ -357,13 +322,6 @@ fn divide(sum: u32, full: u32, rules: Rules) -> u32 {
     mean.min(255)
 }
 
-/// The lower 16 bits.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "the caller wants just these bits")]
-fn low_quarter(word: u32) -> u16 {
-    word as u16
-}
-
 /// The lower 32 bits.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the caller wants just these bits")]
@@ -431,29 +389,6 @@ mod tests {
             Rules::Standard,
         );
         assert_eq!(mixed.0, [32_640, 32_640, 32_640, 65_280], "half white over black");
-    }
-
-    #[test]
-    fn over_all_is_over_for_each() {
-        arbtest::arbtest(|u| {
-            let mut color = || -> arbtest::arbitrary::Result<Premultiplied16> {
-                let alpha = u.int_in_range(0..=Premultiplied16::ONE)?;
-                let mut channel = || u.int_in_range(0..=alpha);
-                Ok(Premultiplied16([channel()?, channel()?, channel()?, alpha]))
-            };
-            let (above, below) = (color()?, [color()?, color()?, color()?]);
-            for rules in Rules::ALL {
-                let mut painted = below;
-                above.over_all(&mut painted, rules);
-                assert_eq!(
-                    painted,
-                    below.map(|below| above.over(below, rules)),
-                    "{above:?} over {below:?}, {rules:?}"
-                );
-            }
-            Ok(())
-        })
-        .budget_ms(200);
     }
 
     #[test]

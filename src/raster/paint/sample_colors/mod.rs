@@ -328,13 +328,7 @@ fn paint(samples: &mut [Premultiplied16], shaded: ShadedColors<'_>, rules: Rules
         samples.copy_from_slice(colors);
         return;
     }
-    for (sample, color) in samples.iter_mut().zip(colors) {
-        *sample = if color.is_opaque() {
-            *color
-        } else {
-            color.over(*sample, rules)
-        };
-    }
+    Premultiplied16::each_over(colors, samples, rules);
 }
 
 /// A distance inside a tile, which is never negative.

@@ -52,7 +52,9 @@ impl<'a> DisplayList<'a> {
             chunk.first_outline = outlines;
             outlines += chunk.outlines.len();
         }
-        let kinds = Kinds::of(&chunks, &sources, settings.sampling.rules);
+        let rules = settings.sampling.rules;
+        let ground = Premultiplied16::from_straight(settings.background, rules);
+        let kinds = Kinds::of(&chunks, &sources, rules, ground);
         Self {
             context,
             settings,

@@ -152,7 +152,15 @@ impl DisplayList<'_> {
         // Looking at the clock costs as much as resolving a few rows.
         let start = tile.is_multiple_of(TIMED).then(Instant::now);
         let mut resolving = None;
-        match self.method(pass, tile, first) {
+        let painted = self.context.tiles.painted(block.rect);
+        let mut method = self.method(pass, tile, first);
+        if let Method::Visibility(rounding) = method {
+            painters.visibility.begin(painted, background, rounding);
+            if !self.paint_surfaces(pass, painters, tile, first) {
+                method = Method::PerSample;
+            }
+        }
+        match method {
             Method::Direct => {
                 let covered = pass.bins[first.chunk].of_tile(tile).get(first.entry);
                 if !covered.is_some_and(|entry| entry.hides_tile()) {
@@ -165,14 +173,7 @@ impl DisplayList<'_> {
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
-            Method::Visibility => {
-                let painted = self.context.tiles.painted(block.rect);
-                painters.visibility.begin(painted, background);
-                for (chunk, entries) in visible(&pass.bins, tile, first) {
-                    painters
-                        .visibility
-                        .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
-                }
+            Method::Visibility(_) => {
                 resolving = start.map(|_| Instant::now());
                 if self.settings.filter.is_plain() {
                     // Shading comes in between, and is none of it.
@@ -187,9 +188,7 @@ impl DisplayList<'_> {
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.visibility.samples_shaded);
             }
             Method::PerSample => {
-                painters
-                    .per_sample
-                    .begin(self.context.tiles.painted(block.rect), background);
+                painters.per_sample.begin(painted, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .per_sample
@@ -207,6 +206,22 @@ impl DisplayList<'_> {
         if let Some(palette) = self.settings.palette {
             block.map(|pixel| recolor(palette, pixel));
         }
+    }
+
+    /// Finds the surfaces that the samples of a tile show, of the commands from `first` on; whether there was room for all of them.
+    fn paint_surfaces<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        tile: usize,
+        first: EntryIndex,
+    ) -> bool {
+        let mut commands = visible(&pass.bins, tile, first);
+        commands.all(|(chunk, entries)| {
+            painters
+                .visibility
+                .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage)
+        })
     }
 }
 

@@ -15,7 +15,7 @@ use crate::raster::display_list::Pass;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
-use crate::raster::paint::method::Method;
+use crate::raster::paint::method::{Method, Rounding};
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind};
 use crate::raster::sampling::positions::Position;
 use crate::raster::span::{Span, SpanRect};
@@ -175,7 +175,7 @@ impl DisplayList<'_> {
             tally: SharedTally::default(),
         };
         let pixel = self.alone(&pass, &mut painters, one_pixel(at));
-        let by_visibility = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Visibility;
+        let by_visibility = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Visibility(Rounding::Sums);
         let shaded = by_visibility.then(|| painters.visibility.shaded_sums()).flatten();
         let of_samples = sums(samples.iter().map(|(color, _)| color));
         // Where it makes no difference, the sum of what the samples show says more.

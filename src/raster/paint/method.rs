@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::color::ResolveSpace;
+use crate::color::{Premultiplied16, ResolveSpace};
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
@@ -15,18 +15,27 @@ use crate::rules::Rules;
 /// How a tile is painted.
 ///
 /// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
-/// fastest. Where samples of the grid are shaded, the visibility method rounds once per primitive and pixel, blending once
-/// per sample: tiles that shade anything take the one or the other for the whole list, unless sums of what they shade are
-/// those of its rounded samples. Off the grid, and in linear light, every sample is rounded for itself, and both give the same
-/// bytes where nothing is to be seen through what is shaded.
+/// fastest. Where samples of the grid are shaded, sums of them may be rounded once per primitive and pixel, or each sample for
+/// itself: tiles that shade anything take the one or the other for the whole list, unless sums of what they shade are
+/// those of its rounded samples. Off the grid, and in linear light, every sample is rounded for itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::raster) enum Method {
     /// Opaque primitives straight into the frame.
     Direct,
     /// What each sample shows, then its colour.
-    Visibility,
+    Visibility(Rounding),
     /// The colour of each sample, primitive by primitive.
     PerSample,
+}
+
+/// What is rounded of samples that are shaded once it is known what they show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::raster) enum Rounding {
+    /// The sum of those of a pixel that show the same opaque primitive.
+    Sums,
+    /// Each for itself: the bytes are those of [`Method::PerSample`], where there are no layers and all is painted on something
+    /// opaque.
+    Samples,
 }
 
 /// Which tiles must blend shaded samples one by one.
@@ -49,10 +58,18 @@ pub(in crate::raster) struct Kinds {
     flat: bool,
     /// Where samples that are shaded must be blended one by one.
     blended: Blended,
+    /// What they are painted on.
+    ground: Premultiplied16,
 }
 
 impl Kinds {
-    pub(in crate::raster) fn of(chunks: &[Chunk], sources: &PaintSources<'_>, rules: Rules) -> Self {
+    /// Of these chunks, painted under `rules` on `ground`.
+    pub(in crate::raster) fn of(
+        chunks: &[Chunk],
+        sources: &PaintSources<'_>,
+        rules: Rules,
+        ground: Premultiplied16,
+    ) -> Self {
         let layers = chunks.iter().any(Chunk::has_layers);
         let translucent = chunks.iter().any(|chunk| chunk.translucent);
         // A few are looked at faster than another thread wakes up.
@@ -77,6 +94,7 @@ impl Kinds {
             } else {
                 Blended::Nowhere
             },
+            ground,
         }
     }
 
@@ -96,6 +114,15 @@ impl Kinds {
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
         let exact = || all(|command, chunk| command.is_opaque() && rounds_each_sample(&command.work(chunk)));
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
+        // Light of what is not opaque may lose something on its way, and layers do not know what is below them.
+        let in_one_layer = || self.ground.is_opaque() && all(|command, chunk| !is_layer_mark(&command.work(chunk)));
+        let by_samples = || {
+            if context.rate.is_square() && (all_opaque() || in_one_layer()) {
+                Method::Visibility(Rounding::Samples)
+            } else {
+                Method::PerSample
+            }
+        };
         if context.coverage.is_exact() {
             return Method::PerSample;
         }
@@ -107,16 +134,16 @@ impl Kinds {
         if !filter.is_plain() {
             // What neighbours weigh, too, takes the colour of every sample; of what is flat surfaces tell it at last.
             return if all_flat() && has_room(context) {
-                Method::Visibility
+                Method::Visibility(Rounding::Sums)
             } else {
                 Method::PerSample
             };
         }
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
-            return if context.rate.is_square() && (all_flat() || all_opaque()) {
-                Method::Visibility
+            return if context.rate.is_square() && all_flat() {
+                Method::Visibility(Rounding::Sums)
             } else {
-                Method::PerSample
+                by_samples()
             };
         }
         if rate_one && all_opaque() {
@@ -129,9 +156,11 @@ impl Kinds {
             Blended::Everywhere => all_flat(),
         };
         if visibility {
-            Method::Visibility
-        } else {
+            Method::Visibility(Rounding::Sums)
+        } else if rate_one {
             Method::PerSample
+        } else {
+            by_samples()
         }
     }
 }
@@ -141,6 +170,11 @@ fn has_room(context: &ListContext) -> bool {
     let [width, height] = context.tiles.painted_sides();
     let samples = width * height * context.rate.samples() as usize;
     context.rate.is_square() && width <= ROW && samples <= MAX_SURFACES / 2
+}
+
+/// Whether a layer begins or ends.
+fn is_layer_mark(work: &Work<'_>) -> bool {
+    matches!(work, Work::BeginLayer | Work::EndLayer(_))
 }
 
 /// Whether the sum of a pixel's samples that show nothing else is that of their rounded colours.

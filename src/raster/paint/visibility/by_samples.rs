@@ -10,8 +10,8 @@ use fearless_simd::{Simd, dispatch};
 use crate::color::{Light, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
+use crate::raster::paint::visibility::paint_stack::SurfaceShader;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::shading::Shader;
 use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -23,8 +23,6 @@ pub(super) const TOGETHER: usize = 64;
 #[derive(Debug)]
 pub(super) struct BySamples {
     pub(super) positions: SamplePositions,
-    /// Whether the positions are those of the grid.
-    is_grid: bool,
     pub(super) mean: SampleMean,
     /// The light of surfaces.
     pub(super) lights: Vec<Light>,
@@ -36,6 +34,8 @@ pub(super) struct BySamples {
 pub(super) struct SampleShades {
     pub(super) points: Vec<[u16; 2]>,
     pub(super) colors: Vec<Premultiplied16>,
+    /// Those of a paint above.
+    above: Vec<Premultiplied16>,
     /// Pixels of which all samples are shaded, and what becomes of them.
     pub(super) whole: Vec<[u16; 2]>,
     pixels: Vec<u32>,
@@ -56,7 +56,6 @@ impl BySamples {
         };
         Self {
             positions,
-            is_grid: context.grid.side().cast_unsigned() == side,
             mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
             shades: SampleShades {
@@ -69,11 +68,6 @@ impl BySamples {
     /// Whether light is averaged.
     pub(super) fn is_linear(&self) -> bool {
         matches!(self.mean, SampleMean::Linear(_))
-    }
-
-    /// Whether tiles in which anything is shaded are resolved here.
-    pub(super) fn is_meant(&self) -> bool {
-        self.is_linear() || !self.is_grid
     }
 }
 
@@ -98,16 +92,12 @@ impl SampleShades {
     }
 
     /// Shades the samples.
-    pub(super) fn shade(&mut self, shader: &Shader<'_>, grid: SampleGrid) {
+    pub(super) fn shade(&mut self, shader: &SurfaceShader<'_>, grid: SampleGrid) {
         let count = self.points.len();
         if self.colors.len() < count {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
-        let colors = &mut self.colors[..count];
-        match shader.constant() {
-            Some(color) => colors.fill(color),
-            None => shader.points(grid, &self.points, colors),
-        }
+        shader.points(grid, &self.points, &mut self.colors[..count], &mut self.above);
     }
 
     /// Takes runs of whole pixels of one primitive until there are many pixels to shade together, only the first one of each row
@@ -142,7 +132,7 @@ impl SampleShades {
     /// Finds the pixels of which all samples are opaque and shaded, those of `whole`.
     pub(super) fn shade_whole(
         &mut self,
-        shader: &Shader<'_>,
+        shader: &SurfaceShader<'_>,
         positions: &SamplePositions,
         mean: &SampleMean,
         grid: SampleGrid,
@@ -164,7 +154,8 @@ impl SampleShades {
             count: positions.count(),
             inside: &self.inside,
         };
-        if !shader.placed_pixels(placed, mean, &mut self.pixels) {
+        let alone = shader.alone();
+        if !alone.is_some_and(|shader| shader.placed_pixels(placed, mean, &mut self.pixels)) {
             self.points.clear();
             self.points.resize(self.whole.len() * placed.count, [0; 2]);
             dispatch!(simd::level(), simd => points_of(simd, placed, &mut self.points));

@@ -10,6 +10,7 @@ pub(in crate::raster) mod flat_resolve;
 mod fragments;
 mod layer_end;
 pub(in crate::raster) mod packed;
+pub(in crate::raster) mod paint_stack;
 pub(in crate::raster) mod painter;
 mod resolve;
 mod resolve_by_samples;

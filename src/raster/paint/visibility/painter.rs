@@ -15,10 +15,12 @@ use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::layers::Compositing;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
+use crate::raster::paint::method::Rounding;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::by_samples::BySamples;
 use crate::raster::paint::visibility::fragments::FragmentSums;
 use crate::raster::paint::visibility::layer_end::LayerEnd;
+use crate::raster::paint::visibility::paint_stack::{Primitive, Translucent};
 use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::sampling::positions::SamplePositions;
@@ -27,7 +29,7 @@ use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::simd;
 
-/// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
+/// Paints tiles, one after the other, reusing its memory. Where sums of samples are shaded, only opaque primitives are.
 #[derive(Debug)]
 pub(crate) struct VisibilityPainter<'a> {
     pub(super) context: ShadeContext<'a>,
@@ -39,6 +41,7 @@ pub(crate) struct VisibilityPainter<'a> {
     /// Memory for the values of pixels.
     pub(super) values: Vec<u32>,
     pub(super) by_samples: BySamples,
+    pub(super) rounding: Rounding,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
 }
@@ -57,35 +60,53 @@ impl<'a> VisibilityPainter<'a> {
             fragments: FragmentSums::default(),
             values: Vec::new(),
             by_samples: BySamples::new(&context, positions),
+            rounding: Rounding::Sums,
             samples_shaded: 0,
         }
     }
 
-    /// Starts a tile.
-    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16) {
-        self.surfaces.clear();
+    /// Starts a tile, for which `rounding` says what is rounded of what is shaded.
+    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16, rounding: Rounding) {
+        self.rounding = rounding;
+        self.surfaces.clear(rounding);
         let surface = self.surfaces.flat(background);
         self.layers.restart().reset(rect, surface);
     }
 
-    /// Paints the commands of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], shape_coverage: &mut ShapeCoverage) {
+    /// Paints the commands of one chunk that touch the tile; false, and the tile is of no use, where too many translucent paints lie
+    /// on top of each other.
+    #[must_use]
+    pub(crate) fn paint(
+        &mut self,
+        chunk: &'a Chunk,
+        entries: &[TileCommand],
+        shape_coverage: &mut ShapeCoverage,
+    ) -> bool {
         for entry in entries {
             self.make_room();
+            if self.surfaces.is_overfull() {
+                return false;
+            }
             match entry.work(chunk) {
                 Work::Flat(shape, color) if color.is_opaque() => {
                     let surface = self.surfaces.flat(color);
                     self.opaque(shape, surface, shape_coverage);
                 }
-                Work::Flat(shape, color) => self.translucent(shape, color, shape_coverage),
+                Work::Flat(shape, color) => self.translucent(shape, Translucent::Flat(color), shape_coverage),
                 Work::Shaded(shape, corners, paint) => {
-                    let surface = self.surfaces.shaded(corners, paint);
-                    self.opaque(shape, surface, shape_coverage);
+                    let primitive = Primitive { corners, paint };
+                    if entry.is_opaque() {
+                        let surface = self.surfaces.shaded(primitive);
+                        self.opaque(shape, surface, shape_coverage);
+                    } else {
+                        self.translucent(shape, Translucent::Shaded(primitive), shape_coverage);
+                    }
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(compositing) => self.end_layer(compositing),
             }
         }
+        true
     }
 
     #[inline]
@@ -106,11 +127,11 @@ impl<'a> VisibilityPainter<'a> {
         }
     }
 
-    fn translucent(&mut self, shape: Shape<'_>, color: Premultiplied16, shape_coverage: &mut ShapeCoverage) {
+    fn translucent(&mut self, shape: Shape<'_>, above: Translucent<'a>, shape_coverage: &mut ShapeCoverage) {
         let by_four = self.has_four_rows(shape);
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
-        let tint = Tint { surfaces, color };
+        let tint = Tint { surfaces, above };
         if by_four {
             dispatch!(simd::level(), simd => translucent_four(simd, shape, shape_coverage, tile, tint));
         } else {
@@ -118,7 +139,7 @@ impl<'a> VisibilityPainter<'a> {
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |y, covered| tile.change(y, covered, |surface| tint.surfaces.under(surface, tint.color)),
+                |y, covered| tile.change(y, covered, |surface| tint.surfaces.under(surface, tint.above)),
             );
         }
     }
@@ -164,10 +185,10 @@ impl<'a> VisibilityPainter<'a> {
     }
 }
 
-/// A translucent colour, and the surfaces that it makes of those below it.
+/// A translucent paint, and the surfaces that it makes of those below it.
 struct Tint<'t, 'a> {
     surfaces: &'t mut SurfaceTable<'a>,
-    color: Premultiplied16,
+    above: Translucent<'a>,
 }
 
 /// A buffer of no pixels.
@@ -207,7 +228,7 @@ fn translucent_four<S: Simd>(
     shape: Shape<'_>,
     shape_coverage: &mut ShapeCoverage,
     tile: &mut VisibilityBuffer,
-    Tint { surfaces, color }: Tint<'_, '_>,
+    Tint { surfaces, above }: Tint<'_, '_>,
 ) {
     simd.vectorize(
         #[inline(always)]
@@ -217,7 +238,7 @@ fn translucent_four<S: Simd>(
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |row| tile.change_four(simd, row, |surface| surfaces.under(surface, color)),
+                |row| tile.change_four(simd, row, |surface| surfaces.under(surface, above)),
             );
         },
     );
@@ -227,39 +248,74 @@ fn translucent_four<S: Simd>(
 mod tests {
     use std::sync::atomic::AtomicBool;
 
+    use glam::DVec2;
+
     use super::*;
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::frame::block::PixelBlock;
+    use crate::raster::frame::framebuffer::Framebuffer;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
     use crate::raster::paint::sample_colors::SampleColors;
+    use crate::raster::paint::visibility::paint_stack::MOST;
     use crate::raster::random::{fill, noise};
+    use crate::raster::shading::Paint;
     use crate::raster::span::Span;
-    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, SizedFilter};
+    use crate::raster::tiles::Painters;
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, ShadingRate, SizedFilter};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
     const SIZE: [u32; 2] = [70, 50];
 
+    fn settings() -> RasterSettings {
+        RasterSettings {
+            rate: SampleRate::new(4).expect("a square number"),
+            pattern: SamplePattern::Jittered,
+            seed: crate::raster::Seed::default(),
+            shading: ShadingRate::Sample,
+            coverage: crate::raster::PixelCoverage::default(),
+            sampling: SamplingSettings::default(),
+            filter: SizedFilter::default(),
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        }
+    }
+
+    /// The pixels of a tile that are blended sample by sample, row by row.
+    fn blended<'a>(
+        painters: &mut Painters<'a>,
+        list: &DisplayList<'_>,
+        (chunk, commands): (&'a Chunk, &[TileCommand]),
+        rect: SpanRect,
+    ) -> Vec<u32> {
+        painters.per_sample.begin(rect, list.background());
+        painters.per_sample.paint(chunk, commands, &mut painters.shape_coverage);
+        let width = rect.x.length();
+        let mut pixels = vec![0; width * rect.y.length()];
+        for (row, y) in pixels.chunks_exact_mut(width).zip(rect.y.start..) {
+            painters.per_sample.resolve(y, row);
+        }
+        pixels
+    }
+
     #[test]
-    fn flat_tiles_are_those_of_the_painter_that_blends_each_sample() {
+    fn tiles_are_those_of_the_painter_that_blends_each_sample() {
         let texture = noise();
-        let mut flat = 0;
+        let (mut flat, mut shaded) = (0, 0);
         arbtest::arbtest(|u| {
             let settings = RasterSettings {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
-                pattern: SamplePattern::Grid,
-                seed: crate::raster::Seed::default(),
-                shading: crate::raster::ShadingRate::default(),
-                coverage: crate::raster::PixelCoverage::default(),
+                pattern: *u.choose(&SamplePattern::ALL)?,
+                shading: *u.choose(&[ShadingRate::Sample, ShadingRate::Centre])?,
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()
                 },
-                filter: SizedFilter::default(),
-                space: ResolveSpace::Stored,
+                space: *u.choose(&ResolveSpace::ALL)?,
                 background: *u.choose(&[Rgba::WHITE, Rgba::TRANSPARENT])?,
-                palette: None,
+                ..settings()
             };
             let context = ListContext::new(SIZE, &settings);
             let mut builder = ChunkBuilder::new(&context, 12);
@@ -276,41 +332,75 @@ mod tests {
             for tile in 0..tiles.columns * tiles.rows {
                 let commands = pass.bins[0].of_tile(tile as usize);
                 let chunk = &list.chunks[0];
-                if commands
-                    .iter()
-                    .any(|command| matches!(command.work(chunk), Work::Shaded(..)))
-                {
+                let any = |is: fn(Work<'_>) -> bool| commands.iter().any(|command| is(command.work(chunk)));
+                let rounding = if !any(|work| matches!(work, Work::Shaded(..))) {
+                    flat += 1;
+                    Rounding::Sums
+                } else if list.background().is_opaque() && !any(|work| matches!(work, Work::BeginLayer)) {
+                    shaded += 1;
+                    Rounding::Samples
+                } else {
                     continue;
-                }
-                flat += 1;
+                };
                 let rect = tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE);
                 let (width, height) = (rect.x.length(), rect.y.length());
                 let mut found = vec![0x1234_5678; width * height];
-                painters.visibility.begin(rect, list.background());
-                painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
+                painters.visibility.begin(rect, list.background(), rounding);
+                let is_painted = painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
+                assert!(is_painted, "not so many");
                 painters
                     .visibility
                     .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
-                let mut colors = SampleColors::new(settings.rate, settings.sampling.rules, settings.space);
-                colors.reset(rect, Premultiplied16::TRANSPARENT);
-                painters.visibility.put_colors(&mut colors);
-                painters.per_sample.begin(rect, list.background());
-                painters.per_sample.paint(chunk, commands, &mut painters.shape_coverage);
-                for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
-                    let mut expected = vec![0; width];
-                    painters.per_sample.resolve(y, &mut expected);
-                    assert_eq!(row, expected, "row {y} of tile {tile}, {settings:?}");
-                    let mut of_colors = vec![0; width];
-                    colors.resolve(y, &mut of_colors);
-                    assert_eq!(
-                        of_colors, expected,
-                        "row {y} of tile {tile} by its samples, {settings:?}"
-                    );
+                let expected = blended(&mut painters, &list, (chunk, commands), rect);
+                assert_eq!(found, expected, "tile {tile}, {settings:?}");
+                if rounding == Rounding::Sums {
+                    let mut colors = SampleColors::new(settings.rate, settings.sampling.rules, settings.space);
+                    colors.reset(rect, Premultiplied16::TRANSPARENT);
+                    painters.visibility.put_colors(&mut colors);
+                    for (row, y) in found.chunks_exact_mut(width).zip(rect.y.start..) {
+                        colors.resolve(y, row);
+                    }
+                    assert_eq!(found, expected, "tile {tile} by its samples, {settings:?}");
                 }
             }
             Ok(())
         })
-        .budget_ms(1500);
-        assert!(flat > 0, "{flat} flat tiles");
+        .budget_ms(2000);
+        assert!(flat > 0 && shaded > 0, "{flat} flat tiles, {shaded} others");
+    }
+
+    #[test]
+    fn a_tile_under_too_many_veils_is_painted_without_surfaces() {
+        let size = [5, 3];
+        let settings = settings();
+        let context = ListContext::new(size, &settings);
+        for (veils, fits) in [(MOST - 1, true), (MOST + 1, false)] {
+            let mut builder = ChunkBuilder::new(&context, 2 + veils);
+            let all = [DVec2::new(-9.0, -9.0), DVec2::new(30.0, 0.0), DVec2::new(0.0, 30.0)];
+            builder.triangle(
+                all,
+                &Paint::vertex([Rgba::WHITE, Rgba::BLACK, Rgba::opaque(1.0, 0.5, 0.0)]),
+            );
+            for i in 0..veils {
+                let veil = Rgba {
+                    a: 0.01,
+                    ..Rgba::opaque((i % 7) as f32 / 6.0, 0.3, 0.9)
+                };
+                builder.triangle(all, &Paint::solid(veil));
+            }
+            let list = DisplayList::new(context, settings, vec![builder.finish()], Vec::new().into());
+            let cancelled = AtomicBool::new(false);
+            let pass = list.pass(&list.plan(), Span { start: 0, end: 1 }, &cancelled);
+            let (commands, chunk) = (pass.bins[0].of_tile(0), &list.chunks[0]);
+            let rect = context.tiles.pixels(0, 0, size);
+            let mut painters = list.painters();
+            painters.visibility.begin(rect, list.background(), Rounding::Samples);
+            let is_painted = painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
+            assert_eq!(is_painted, fits, "{veils} veils");
+            let expected = blended(&mut painters, &list, (chunk, commands), rect);
+            let mut frame = Framebuffer::new(size[0], size[1]);
+            list.rasterize(&mut frame, &cancelled).expect("not cancelled");
+            assert_eq!(frame.pixels(), expected, "{veils} veils");
+        }
     }
 }

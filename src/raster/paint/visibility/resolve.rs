@@ -8,9 +8,11 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Light, LightResolver, Premultiplied16, Resolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::method::Rounding;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
+use crate::raster::paint::visibility::paint_stack::Primitive;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
@@ -122,7 +124,7 @@ impl VisibilityPainter<'_> {
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.surfaces.len());
         let origin = [x.start, y.start];
-        if self.by_samples.is_meant() {
+        if self.rounding == Rounding::Samples {
             self.shade_samples(origin, block);
         } else {
             self.shade(origin, &mut Whole::Put(block));
@@ -153,7 +155,7 @@ impl VisibilityPainter<'_> {
 
     /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
     pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
-        if self.unresolved.is_empty() || self.by_samples.is_meant() {
+        if self.unresolved.is_empty() || self.rounding == Rounding::Samples {
             return None;
         }
         self.unresolved.clear();
@@ -302,9 +304,10 @@ impl VisibilityPainter<'_> {
         } in sorted.by_surface()
         {
             let shown = surfaces.get(surface);
-            let Some(Shaded { corners, paint, kept }) = shown.shaded else {
+            let Some(Shaded { primitive, kept, .. }) = shown.shaded else {
                 continue;
             };
+            let Primitive { corners, paint } = primitive;
             let shader = Shader::new(context, corners, paint);
             let nothing_above = kept == Premultiplied16::ONE;
             let pixels: usize = runs.iter().map(|run| run.len()).sum();

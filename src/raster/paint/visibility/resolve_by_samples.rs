@@ -1,5 +1,5 @@
 //! The second step of a tile where every sample is shaded and rounded for itself: off the grid, where no sum of a primitive's
-//! samples is known before, and in linear light, which is no sum of what samples store.
+//! samples is known before, in linear light, which is no sum of what samples store, and where translucent paints are shaded.
 //!
 //! As in `resolve` only what is seen is shaded, primitive by primitive. Pixels that show one primitive are averaged as soon as
 //! their samples are shaded; what several share is added up. In tiles of flat colours light is added up by surface.
@@ -9,13 +9,12 @@ use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::by_samples::{BySamples, TOGETHER};
 use crate::raster::paint::visibility::packed::lanes;
+use crate::raster::paint::visibility::paint_stack::SurfaceShader;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::paint::visibility::resolve::each_shared;
 use crate::raster::paint::visibility::shading_queue::{Fragment, ShadingQueue, ToShade};
-use crate::raster::paint::visibility::surface_color::Shaded;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
-use crate::raster::shading::Shader;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
 
 impl VisibilityPainter<'_> {
@@ -50,10 +49,9 @@ impl VisibilityPainter<'_> {
             fragments,
         } in sorted.by_surface()
         {
-            let Some(Shaded { corners, paint, .. }) = surfaces.get(surface).shaded else {
+            let Some(shader) = SurfaceShader::new(context, surfaces.get(surface), &surfaces.stacks) else {
                 continue;
             };
-            let shader = Shader::new(context, corners, paint);
             // Where all pixels of a row get the same colours, that of the first one.
             let repeats = shader.is_level() && positions.are_same();
             while !runs.is_empty() {

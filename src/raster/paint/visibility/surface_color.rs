@@ -1,20 +1,20 @@
 //! What the samples of one surface show, and sums of such colours.
 
 use crate::color::Premultiplied16;
-use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::Paint;
+use crate::raster::paint::visibility::paint_stack::{Primitive, StackedPaint};
 use crate::rules::Rules;
 
 /// What the samples of one surface show.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceColor<'a> {
-    /// The colour; over a shaded primitive, what translucent paints add to it.
+    /// The colour. Of a shaded primitive what translucent paints add to it, or, where every sample is rounded for itself, what lies
+    /// below it.
     pub(crate) flat: Premultiplied16,
     /// The same, spread so that many can be added up.
     pub(crate) spread: Spread,
     /// The pixel that shows nothing but the flat colour.
     pub(crate) pixel: u32,
-    /// The opaque primitive below.
+    /// The lowest primitive that is to be shaded.
     pub(crate) shaded: Option<Shaded<'a>>,
 }
 
@@ -25,10 +25,23 @@ pub(crate) struct Spread([u64; 2]);
 /// A primitive that is to be shaded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shaded<'a> {
-    pub(crate) corners: &'a [GridPoint; 3],
-    pub(crate) paint: &'a Paint,
-    /// How much of its colour shines through, of [`Premultiplied16::ONE`].
+    pub(crate) primitive: Primitive<'a>,
+    /// How much of its colour shines through, of [`Premultiplied16::ONE`]; where every sample is rounded for itself, `above` tells.
     pub(crate) kept: u16,
+    /// The topmost of the translucent paints over it, where every sample is rounded for itself.
+    pub(crate) above: Option<StackedPaint>,
+}
+
+impl<'a> Shaded<'a> {
+    /// One with nothing over it.
+    #[inline]
+    pub(crate) fn new(primitive: Primitive<'a>) -> Self {
+        Self {
+            primitive,
+            kept: Premultiplied16::ONE,
+            above: None,
+        }
+    }
 }
 
 impl Spread {

@@ -3,11 +3,11 @@
 //! Painting a translucent colour over a surface makes a new surface: once for all samples that show the old one.
 
 use crate::color::{Premultiplied16, Resolver};
-use crate::geometry::subpixel::GridPoint;
 use crate::raster::layers::Compositing;
+use crate::raster::paint::method::Rounding;
 use crate::raster::paint::visibility::flat_resolve::FlatResolve;
+use crate::raster::paint::visibility::paint_stack::{PaintStacks, Primitive, Translucent};
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
-use crate::raster::shading::Paint;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::rules::Rules;
 
@@ -23,6 +23,9 @@ pub(crate) struct SurfaceTable<'a> {
     paint: u32,
     /// Whether anything is to be shaded.
     pub(crate) any_shaded: bool,
+    /// Whether every sample is rounded for itself, and what lies over shaded primitives then.
+    rounding: Rounding,
+    pub(super) stacks: PaintStacks<'a>,
 }
 
 impl<'a> SurfaceTable<'a> {
@@ -35,16 +38,20 @@ impl<'a> SurfaceTable<'a> {
             painted: Vec::new(),
             paint: 0,
             any_shaded: false,
+            rounding: Rounding::Sums,
+            stacks: PaintStacks::default(),
         }
     }
 
-    /// Forgets all surfaces.
-    pub(crate) fn clear(&mut self) {
+    /// Forgets all surfaces, for a tile where this is rounded.
+    pub(crate) fn clear(&mut self, rounding: Rounding) {
         self.all.clear();
         self.flat.clear();
         self.painted.clear();
         self.paint = 0;
         self.any_shaded = false;
+        self.rounding = rounding;
+        self.stacks.clear();
     }
 
     /// How many there are.
@@ -69,6 +76,11 @@ impl<'a> SurfaceTable<'a> {
         self.all.len() > MAX_SURFACES / 2 - 1
     }
 
+    /// Whether more lies on top of each other than there is room for: nothing may be painted then.
+    pub(crate) fn is_overfull(&self) -> bool {
+        self.stacks.is_full()
+    }
+
     /// A surface for a flat colour; successive ones of the same colour share it.
     #[inline]
     pub(crate) fn flat(&mut self, color: Premultiplied16) -> SurfaceId {
@@ -81,17 +93,13 @@ impl<'a> SurfaceTable<'a> {
 
     /// A surface for an opaque primitive that is to be shaded.
     #[inline]
-    pub(crate) fn shaded(&mut self, corners: &'a [GridPoint; 3], paint: &'a Paint) -> SurfaceId {
+    pub(crate) fn shaded(&mut self, primitive: Primitive<'a>) -> SurfaceId {
         self.any_shaded = true;
         self.push(SurfaceColor {
             flat: Premultiplied16::TRANSPARENT,
             spread: Spread::default(),
             pixel: 0,
-            shaded: Some(Shaded {
-                corners,
-                paint,
-                kept: Premultiplied16::ONE,
-            }),
+            shaded: Some(Shaded::new(primitive)),
         });
         self.newest()
     }
@@ -101,10 +109,10 @@ impl<'a> SurfaceTable<'a> {
         self.paint += 1;
     }
 
-    /// What samples of `surface` show under a translucent colour, which is the same for all calls between two of
+    /// What samples of `surface` show under a translucent paint, which is the same for all calls between two of
     /// [`SurfaceTable::next_paint`].
     #[inline]
-    pub(crate) fn under(&mut self, surface: SurfaceId, color: Premultiplied16) -> SurfaceId {
+    pub(crate) fn under(&mut self, surface: SurfaceId, above: Translucent<'a>) -> SurfaceId {
         if self.painted.len() < self.all.len() {
             self.painted.resize(self.all.len(), (0, 0));
         }
@@ -112,22 +120,35 @@ impl<'a> SurfaceTable<'a> {
         if paint == self.paint {
             return became;
         }
-        let mixed = self.mix(surface, color);
+        let mixed = self.mix(surface, above);
         self.painted[usize::from(surface)] = (self.paint, mixed);
         mixed
     }
 
-    /// A new surface for a colour over what `below` shows.
-    pub(crate) fn mix(&mut self, below: SurfaceId, color: Premultiplied16) -> SurfaceId {
+    /// A new surface for a translucent paint over what `below` shows; one that is to be shaded only where every sample is rounded
+    /// for itself.
+    pub(crate) fn mix(&mut self, below: SurfaceId, above: Translucent<'a>) -> SurfaceId {
         let mut mixed = *self.get(below);
-        mixed.flat = color.over(mixed.flat, self.rules);
-        mixed.spread = Spread::new(mixed.flat);
-        match &mut mixed.shaded {
-            None => mixed.pixel = mixed.flat.to_pixel(self.rules),
-            Some(shaded) => {
-                let rest = Premultiplied16::ONE - color.0[3];
-                let [kept, ..] = Premultiplied16([shaded.kept; 4]).faded(rest).0;
-                shaded.kept = kept;
+        match (above, &mut mixed.shaded) {
+            (above, Some(shaded)) if self.rounding == Rounding::Samples => {
+                shaded.above = self.stacks.push(above, shaded.above);
+            }
+            (Translucent::Flat(color), shaded) => {
+                mixed.flat = color.over(mixed.flat, self.rules);
+                mixed.spread = Spread::new(mixed.flat);
+                match shaded {
+                    None => mixed.pixel = mixed.flat.to_pixel(self.rules),
+                    Some(shaded) => {
+                        let rest = Premultiplied16::ONE - color.0[3];
+                        let [kept, ..] = Premultiplied16([shaded.kept; 4]).faded(rest).0;
+                        shaded.kept = kept;
+                    }
+                }
+            }
+            (Translucent::Shaded(primitive), shaded) => {
+                debug_assert_eq!(self.rounding, Rounding::Samples, "sums are of opaque primitives");
+                self.any_shaded = true;
+                *shaded = Some(Shaded::new(primitive));
             }
         }
         self.push(mixed);

@@ -22,8 +22,11 @@ const MAX_DEPTH: usize = 2_000;
 /// Most references but those of `use`.
 const MAX_REFERENCES: u64 = 150_000;
 
-/// Elements inside a group with a marker that are looked at for the longest path.
-const MAX_INSIDE: usize = 1_000;
+/// Most numbers of outlines, those that references repeat counted again: usvg takes up to 70 bytes for each.
+const MAX_NUMBERS: u64 = 20_000_000;
+
+/// Numbers of a letter's outline.
+const OF_A_LETTER: u64 = 40;
 
 const DEEP: &str = "elements inside each other, with those that are referred to";
 
@@ -37,6 +40,12 @@ struct Found {
     work: u64,
     /// How deep that goes.
     depth: usize,
+    /// Numbers of the outlines that are made of it.
+    numbers: u64,
+    /// Whether all that refer to it share what is made of it.
+    is_shared: bool,
+    /// Corners of its paths, at each of which a marker is drawn that it hands down.
+    corners: u64,
 }
 
 /// Something that an element refers to.
@@ -45,8 +54,6 @@ struct Link<'doc> {
     /// The property or attribute.
     by: By,
     to: Node<'doc, 'doc>,
-    /// How often it is drawn for one reference: a marker is, at every corner.
-    times: u64,
 }
 
 /// An element on the way down.
@@ -108,57 +115,59 @@ impl<'doc> Search<'_, 'doc> {
         let whole = Link {
             by: By::Inside,
             to: root,
-            times: 1,
         };
-        let mut open = vec![self.open(whole)];
+        let mut open = vec![self.open(whole, 1)];
         while let Some(last) = open.last_mut() {
-            let Some(link) = last.links.next() else {
-                let Some(closed) = open.pop() else {
-                    break;
-                };
+            if let Some(link) = last.links.next() {
+                let times = last.found.times(link.by);
+                match self.done.get(&link.to.id()) {
+                    Some(Some(found)) => {
+                        let found = *found;
+                        last.found.add(link.by, found, times);
+                        self.count(link.by, found, times);
+                    }
+                    Some(None) => self.has_circles = true,
+                    None => {
+                        if open.len() >= MAX_DEPTH {
+                            let what = DEEP;
+                            return Err(listener.fault(Problem::TooMany { what, limit: MAX_DEPTH }, link.to, ""));
+                        }
+                        let next = self.open(link, times);
+                        open.push(next);
+                    }
+                }
+            } else if let Some(closed) = open.pop() {
                 self.done.insert(closed.node.id(), Some(closed.found));
-                if let Some(parent) = open.last_mut() {
-                    parent.found.add(closed.found, closed.times);
+                if let Some(around) = open.last_mut() {
+                    around.found.add(closed.by, closed.found, closed.times);
                     self.count(closed.by, closed.found, closed.times);
                 }
-                continue;
-            };
-            match self.done.get(&link.to.id()) {
-                Some(Some(found)) => {
-                    let found = *found;
-                    last.found.add(found, link.times);
-                    self.count(link.by, found, link.times);
-                }
-                Some(None) => self.has_circles = true,
-                None => {
-                    if open.len() >= MAX_DEPTH {
-                        let what = DEEP;
-                        return Err(listener.fault(Problem::TooMany { what, limit: MAX_DEPTH }, link.to, ""));
-                    }
-                    let next = self.open(link);
-                    open.push(next);
-                }
             }
-            if self.references > MAX_REFERENCES {
-                let limit = usize::try_from(MAX_REFERENCES).unwrap_or(usize::MAX);
-                let what = "references to gradients, patterns, clip paths and masks";
-                return Err(listener.fault(Problem::TooMany { what, limit }, link.to, ""));
-            }
-            if let Some(last) = open.last() {
-                let deep = last.found.depth > MAX_DEPTH;
-                let much = last.found.work > MAX_WORK || self.steps > MAX_SEARCH;
-                let (what, limit) = match (deep, much) {
-                    (true, _) => (DEEP, MAX_DEPTH),
-                    (_, true) => (
-                        "elements, with those that references repeat",
-                        usize::try_from(MAX_WORK).unwrap_or(usize::MAX),
-                    ),
-                    _ => continue,
-                };
+            if let Some(last) = open.last()
+                && let Some((what, limit)) = self.excess(last.found)
+            {
+                let limit = usize::try_from(limit).unwrap_or(usize::MAX);
                 return Err(listener.fault(Problem::TooMany { what, limit }, last.node, ""));
             }
         }
         Ok(())
+    }
+
+    /// What of an element is too much, with all that is inside so far, and where the limit is.
+    fn excess(&self, found: Found) -> Option<(&'static str, u64)> {
+        if found.depth > MAX_DEPTH {
+            Some((DEEP, MAX_DEPTH as u64))
+        } else if self.references > MAX_REFERENCES {
+            let what = "references to gradients, patterns, clip paths and masks";
+            Some((what, MAX_REFERENCES))
+        } else if found.work > MAX_WORK || self.steps > MAX_SEARCH {
+            Some(("elements, with those that references repeat", MAX_WORK))
+        } else if found.numbers > MAX_NUMBERS {
+            let what = "numbers of outlines (a letter has about 40), with those that references repeat";
+            Some((what, MAX_NUMBERS))
+        } else {
+            None
+        }
     }
 
     /// usvg looks through everything that is referred to, once for each reference.
@@ -177,33 +186,35 @@ impl<'doc> Search<'_, 'doc> {
             let links = self.links(node).into_iter();
             links.map(move |link| (from, link.to.id().get_usize(), link.by))
         });
-        edges.filter(|(_, _, by)| *by != By::Marker).collect()
+        edges
+            .filter(|(_, _, by)| !matches!(by, By::Marker | By::EndMarker))
+            .collect()
     }
 
-    fn open(&mut self, link: Link<'doc>) -> Open<'doc> {
-        let Link { by, to, times } = link;
+    fn open(&mut self, link: Link<'doc>, times: u64) -> Open<'doc> {
+        let Link { by, to } = link;
         self.done.insert(to.id(), None);
         Open {
             node: to,
             links: self.links(to).into_iter(),
             by,
             times,
-            found: Found { work: 1, depth: 1 },
+            found: Found::alone(to),
         }
     }
 
-    /// What is inside an element, and what it refers to.
+    /// What is inside an element, and what it refers to; markers after all that they may be drawn on.
     fn links(&self, node: Node<'doc, 'doc>) -> Vec<Link<'doc>> {
-        let inside = |to| Link {
-            by: By::Inside,
-            to,
-            times: 1,
-        };
+        let inside = |to| Link { by: By::Inside, to };
         let mut links: Vec<Link<'doc>> = node.children().filter(Node::is_element).map(inside).collect();
         for (by, id) in self.styles.references(node) {
-            let times = if by == By::Marker { corners(node) } else { 1 };
-            links.extend(self.ids.get(id).map(|to| Link { by, to: *to, times }));
+            links.extend(self.ids.get(id).map(|to| Link { by, to: *to }));
         }
+        links.sort_by_key(|link| match link.by {
+            By::Inside | By::Href => 0,
+            By::Marker | By::EndMarker => 1,
+            _ => 2,
+        });
         // What stands elsewhere is painted as what is around it there; and each shape has paints of its own.
         let is_definition = DEFINITIONS.contains(&node.tag_name().name());
         if is_definition || !node.has_children() {
@@ -211,7 +222,7 @@ impl<'doc> Search<'_, 'doc> {
             let paints = parent.and_then(|parent| self.inherited.get(&parent));
             let around = paints.into_iter().flatten().flatten().filter_map(|id| self.ids.get(id));
             let by = if is_definition { By::Inherited } else { By::Fill };
-            links.extend(around.map(|to| Link { by, to: *to, times: 1 }));
+            links.extend(around.map(|to| Link { by, to: *to }));
         }
         links
     }
@@ -220,26 +231,66 @@ impl<'doc> Search<'_, 'doc> {
 /// Elements that are drawn elsewhere, but with what they inherit where they stand.
 const DEFINITIONS: [&str; 3] = ["pattern", "marker", "mask"];
 
-/// How many corners the longest path inside an element has, at most.
-fn corners(node: Node<'_, '_>) -> u64 {
-    let of_one = |node: Node<'_, '_>| {
-        let data = node.attribute("d").or_else(|| node.attribute("points")).unwrap_or("");
-        // A corner takes about as many characters, mostly more.
-        (data.len() / 4) as u64
-    };
-    node.descendants()
-        .take(MAX_INSIDE)
-        .map(of_one)
-        .max()
-        .unwrap_or(0)
-        .max(1)
+impl Found {
+    /// An element without what is inside and what it refers to.
+    fn alone(node: Node<'_, '_>) -> Self {
+        let data = node.attribute("d").or_else(|| node.attribute("points"));
+        let numbers = data.map_or(0, numbers);
+        let letters = match node.tag_name().name() {
+            "text" | "tspan" | "textPath" | "a" => {
+                let texts = node.children().filter(Node::is_text);
+                texts.map(|text| text.text().unwrap_or("").trim().len() as u64).sum()
+            }
+            _ => 0,
+        };
+        Self {
+            work: 1,
+            depth: 1,
+            is_shared: matches!(node.tag_name().name(), "linearGradient" | "radialGradient"),
+            numbers: numbers.saturating_add(OF_A_LETTER * letters),
+            // Most corners have two numbers or more.
+            corners: numbers.div_ceil(2),
+        }
+    }
+
+    /// How often an element is drawn that is referred to once, where all that is inside has been added.
+    fn times(self, by: By) -> u64 {
+        match by {
+            By::Marker => self.corners.max(1),
+            // One for each path; there are no more of those than elements.
+            By::EndMarker => self.work,
+            _ => 1,
+        }
+    }
+
+    fn add(&mut self, by: By, inside: Self, times: u64) {
+        let work = if inside.is_shared { 1 } else { inside.work };
+        self.work = self.work.saturating_add(work.saturating_mul(times));
+        self.numbers = self.numbers.saturating_add(inside.numbers.saturating_mul(times));
+        self.depth = self.depth.max(inside.depth + 1);
+        if matches!(by, By::Inside | By::Href) {
+            self.corners = self.corners.saturating_add(inside.corners);
+        }
+    }
 }
 
-impl Found {
-    fn add(&mut self, inside: Self, times: u64) {
-        self.work = self.work.saturating_add(inside.work.saturating_mul(times));
-        self.depth = self.depth.max(inside.depth + 1);
+/// How many numbers the data of a path or polygon holds, about.
+fn numbers(data: &str) -> u64 {
+    let mut count = 0;
+    let mut last = b' ';
+    let mut has_point = false;
+    for byte in data.bytes() {
+        let is_point = byte == b'.';
+        if is_point || byte.is_ascii_digit() {
+            let begins = !(last == b'.' || last.is_ascii_digit());
+            // A second point begins another number: `.5.5`.
+            let again = is_point && has_point && !begins;
+            has_point = is_point || has_point && !begins;
+            count += u64::from(begins || again);
+        }
+        last = byte;
     }
+    count
 }
 
 /// The id that a property refers to, written on the element or handed down to it; style sheets are not looked at.

@@ -27,7 +27,10 @@ pub(super) enum By {
     Mask,
     Fill,
     Stroke,
+    /// By a marker at every corner.
     Marker,
+    /// By a marker at one end of a path.
+    EndMarker,
     Filter,
     /// By the picture of a filter.
     Picture,
@@ -205,7 +208,8 @@ fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str
         "mask" => Some(By::Mask),
         "fill" => Some(By::Fill),
         "stroke" => Some(By::Stroke),
-        "marker" | "marker-start" | "marker-mid" | "marker-end" => Some(By::Marker),
+        "marker" | "marker-mid" => Some(By::Marker),
+        "marker-start" | "marker-end" => Some(By::EndMarker),
         "filter" => Some(By::Filter),
         _ => None,
     };

@@ -265,6 +265,43 @@ fn what_multiplies_is_counted_first() {
         let line = outcome(what, &format!("{definitions}{body}"));
         assert!(line.contains("more than"), "{what}: {line}");
     }
+    // Few elements, but long outlines, which usvg copies.
+    let path = format!("<path id='p' d='M0 0{}'/>", "h1v1".repeat(5_000));
+    let marker = format!("<marker id='m'><path d='M0 0{}'/></marker>", "h1v1".repeat(500));
+    let edges = "<path d='M0 0h1v1h1v1h1v1h1v1'/>".repeat(10_000);
+    let long = [
+        ("use", path.clone(), "<use href='#p'/>".repeat(3_000)),
+        (
+            "a clip path",
+            format!("<clipPath id='c'>{path}</clipPath>"),
+            format!("{rect} clip-path='url(#c)'/>").repeat(3_000),
+        ),
+        (
+            "a marker of a group",
+            marker.clone(),
+            format!("<g marker-mid='url(#m)'>{edges}</g>"),
+        ),
+        (
+            "a marker of what is used",
+            format!("{marker}<g id='g'>{edges}</g>"),
+            "<use href='#g' marker-mid='url(#m)'/>".to_owned(),
+        ),
+        (
+            "letters",
+            format!("<text id='t'>{}</text>", "many words ".repeat(500)),
+            "<use href='#t'/>".repeat(200),
+        ),
+    ];
+    for (what, definitions, body) in long {
+        let line = outcome(what, &format!("{definitions}{body}"));
+        assert!(line.contains("numbers of outlines"), "{what}: {line}");
+    }
+    // An arrow at the end of each path is drawn once.
+    let line = outcome(
+        "arrows",
+        &format!("{marker}<g marker-end='url(#m)'>{}</g>", path.repeat(100)),
+    );
+    assert!(line.is_empty(), "{line}");
     let stops = "<stop/>".repeat(1000);
     let shapes = "<rect width='1' height='1' fill='url(#g)'/>".repeat(10_000);
     // Shapes share them.

@@ -308,6 +308,10 @@ impl Explanation {
 
     /// Which samples a clip path or mask leaves something of, in words.
     fn kept(&self, mask: &Paint) -> String {
+        if self.exact {
+            let kept = mask.fragments.first().map_or(0.0, |fragment| fragment.color[3]);
+            return format!("{} of it", percent(kept / 255.0));
+        }
         let kept = mask.fragments.iter().filter(|fragment| fragment.color[3] > 0.0);
         let kept: Vec<usize> = kept.map(|fragment| fragment.sample).collect();
         let whole = |fragment: &&Fragment| fragment.color[3] >= 255.0;

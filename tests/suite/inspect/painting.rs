@@ -3,7 +3,7 @@
 use rasterscope::color::Rgba;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Interpolated, Shape, View as Seen};
-use rasterscope::raster::{Framebuffer, SamplePattern};
+use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern};
 use rasterscope::render::{Explainer, RenderSettings, Subject, draw, replay};
 use rasterscope::scene::{DialectChoice, Scene};
 
@@ -86,6 +86,14 @@ fn clips_tell_which_path_took_samples_away() {
     let shown = found.samples.iter().filter(|sample| sample.seen.is_some()).count();
     assert_eq!(shown, kept, "the others show the background");
     assert!(!text.contains("circle\" paints"), "what clips is not painted: {text}");
+    // Areas have no samples to count.
+    let areas = RenderSettings {
+        coverage: PixelCoverage::Exact,
+        ..at_rate(1)
+    };
+    let (_, text) = told([28, 48], &areas);
+    let told_area = text.contains("stays where the clip path covers it:") && text.contains("% of it");
+    assert!(told_area && !text.contains("samples stay"), "{text}");
     // Outside of it nothing of the group is left, and that is said too.
     let (outside, text) = told([5, 26], &at_rate(4));
     assert_eq!(outside.color, [255; 4]);

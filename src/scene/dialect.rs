@@ -1,5 +1,7 @@
 //! Which reading of a document the user asks for.
 
+use std::path::Path;
+
 use roxmltree::Node;
 use svgtypes::{Length, LengthUnit};
 
@@ -257,7 +259,7 @@ fn is_styled_as_svg(node: Node<'_, '_>) -> bool {
     node.has_attribute("style") || misread("fill") || misread("stroke")
 }
 
-/// Whether the element has an attribute, or a unit, that the course's reader does not know.
+/// Whether the element has an attribute, a unit or a picture that the course's reader does not know.
 fn is_only_svg(node: Node<'_, '_>) -> bool {
     let has_unit = |text: &str| {
         let length = text.trim().parse::<Length>();
@@ -265,6 +267,19 @@ fn is_only_svg(node: Node<'_, '_>) -> bool {
     };
     ONLY_SVG.iter().any(|name| node.has_attribute(*name))
         || LENGTHS.iter().any(|name| node.attribute(*name).is_some_and(has_unit))
+        || is_drawing(node)
+}
+
+/// Whether this is an image that is a drawing itself: the course's reader knows pictures of texels only.
+fn is_drawing(node: Node<'_, '_>) -> bool {
+    let address = attributes::href(node).filter(|_| node.tag_name().name() == "image");
+    address.is_some_and(|address| {
+        let head: String = address.trim_start().chars().take("data:image/svg".len()).collect();
+        head.eq_ignore_ascii_case("data:image/svg")
+            || Path::new(address.trim_end())
+                .extension()
+                .is_some_and(|kind| kind.eq_ignore_ascii_case("svg") || kind.eq_ignore_ascii_case("svgz"))
+    })
 }
 
 /// Whether this is a rect without size, which the course draws as a point.

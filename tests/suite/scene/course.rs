@@ -361,6 +361,13 @@ fn auto_finds_the_dialect() {
         (size, "<rect width='1px' height='1' stroke-width='2'/>", Dialect::Course),
         (size, "<rect width='1' height='1' rx='1'/>", Dialect::Svg),
         (size, "<rect width='1' height='1' clip-path='url(#c)'/>", Dialect::Svg),
+        (size, "<image width='1' height='1' href='a.SVG'/>", Dialect::Svg),
+        (
+            size,
+            "<image width='1' height='1' href='data:image/svg+xml,'/>",
+            Dialect::Svg,
+        ),
+        (size, "<image width='1' height='1' href='a.png'/>", Dialect::Course),
         (size, "<colortri opacity='.5'/>", Dialect::Course),
         (size, "<polygon fill='red'/><rect/>", Dialect::Course),
         (size, "<g fill='#fff'><polygon/></g>", Dialect::Svg),

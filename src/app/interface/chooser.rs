@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use egui::{AtomExt as _, Button, Response, RichText, Ui};
+use egui::{Button, Response, RichText, Ui};
 
 use super::palette::ENTRY;
 use crate::viewer::{SceneSource, Viewer, kind_of_file, natural_order};
@@ -44,7 +44,7 @@ impl Item {
 
     /// Its line.
     pub(super) fn show(&self, ui: &mut Ui, chosen: bool) -> Response {
-        let kind = RichText::new(self.kind).small().atom_shrink(true);
+        let kind = RichText::new(self.kind).small();
         let name = if self.is_folder() {
             format!("{}/", self.name)
         } else {
@@ -158,6 +158,24 @@ mod tests {
             ("l.toml", "lesson"),
         ];
         assert_eq!(lines, expected, "in their order");
+    }
+
+    #[test]
+    fn line_grows_by_no_name() {
+        let item = Item {
+            path: PathBuf::from("n.svg"),
+            name: "n".repeat(250),
+            kind: "scene",
+        };
+        let mut taken = 0.0;
+        egui::Context::default()
+            .run_ui(egui::RawInput::default(), |ui| {
+                ui.set_width(480.0);
+                taken = item.show(ui, false).rect.width();
+            })
+            .textures_delta
+            .clear();
+        assert!(taken <= 480.0, "{taken} points");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the command palette finds: commands, values of settings, and scenes.
 
-use egui::{AtomExt as _, Button, Response, RichText, Ui};
+use egui::{AtomExt as _, Button, Color32, Response, RichText, TextStyle, Ui};
 
 use super::look::CONTROL;
 use super::menu::capitalized;
@@ -54,8 +54,11 @@ impl Entry {
 
     /// The line itself.
     pub(super) fn show(&self, ui: &mut Ui, chosen: bool) -> Response {
-        // Where both do not fit, the end of what may follow gives way; the name is always whole.
-        let note = RichText::new(&self.note).small().atom_shrink(true);
+        // Where both do not fit, the end of what may follow gives way; that of the name only where it is longer than the line.
+        let font = TextStyle::Button.resolve(ui.style());
+        let name = ui.painter().layout_no_wrap(self.name.clone(), font, Color32::WHITE);
+        let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x;
+        let note = RichText::new(&self.note).small().atom_shrink(name.size().x < room);
         let button = Button::selectable(chosen, &self.name).right_text(note).truncate();
         ui.add_sized([ui.available_width(), ENTRY], button)
             .accessible_name(&self.name)
@@ -184,6 +187,24 @@ mod tests {
                 assert!(named, "{} in one line of {width} points", spec.name);
             }
         }
+    }
+
+    #[test]
+    fn palette_grows_by_no_name() {
+        let entry = Entry {
+            name: "n".repeat(250),
+            note: "scene".to_owned(),
+            does: Does::Run(Command::Scenes(SceneCommand::Show(0))),
+        };
+        let mut taken = 0.0;
+        Context::default()
+            .run_ui(egui::RawInput::default(), |ui| {
+                ui.set_width(480.0);
+                taken = entry.show(ui, false).rect.width();
+            })
+            .textures_delta
+            .clear();
+        assert!(taken <= 480.0, "{taken} points");
     }
 
     #[test]

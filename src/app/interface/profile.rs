@@ -36,6 +36,10 @@ const ROW: f32 = 21.0;
 const NAMES: f32 = 60.0;
 /// Width of the column of shades, in points.
 const COUNTS: f32 = 46.0;
+/// Width of the other columns from which on their numbers have units beside them, in points; else the heads name the units.
+const WITH_UNITS: f32 = 62.0;
+/// The heads of narrow columns.
+const NARROW: [&str; 4] = ["shades", "10\u{2013}90 px", "over %", "under %"];
 /// Pieces of the line that give way or are given way to, each by itself.
 const PARTS: u8 = 32;
 /// What the columns of numbers are.
@@ -187,14 +191,19 @@ fn channels(ui: &mut Ui, current: ProfileChannel, commands: &mut Vec<Command>) {
 fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
     let width = ((ui.available_width() - NAMES - COUNTS) / (COLUMNS.len() - 1) as f32).floor();
     let widths = [COUNTS, width, width, width];
-    let heads = COLUMNS.map(|(name, _)| RichText::new(name).small().weak());
-    row(ui, widths, |_| {}, heads);
+    let is_narrow = width < WITH_UNITS;
+    let heads = if is_narrow {
+        NARROW
+    } else {
+        COLUMNS.map(|(name, _)| name)
+    };
+    row(ui, widths, |_| {}, heads.map(|head| RichText::new(head).small().weak()));
     let edges: Vec<Option<Edge>> = curves.iter().map(|curve| curve.profile.edge(channel)).collect();
     for (curve, edge) in curves.iter().zip(&edges) {
-        let percent = |part: f64| format!("{:.1} %", part * 100.0);
+        let percent = |part: f64| measure(part * 100.0, 1, if is_narrow { "" } else { " %" });
         let cells = [
             Some(curve.profile.shades().to_string()),
-            edge.map(|edge| format!("{:.2} px", edge.width())),
+            edge.map(|edge| measure(edge.width(), 2, if is_narrow { "" } else { " px" })),
             edge.map(|edge| percent(edge.overshoot)),
             edge.map(|edge| percent(edge.undershoot)),
         ];
@@ -213,6 +222,12 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
         return;
     };
     ui.label(RichText::new(note).small().color(ui.visuals().warn_fg_color));
+}
+
+/// A number with its unit; one of three digits before the point has no more than one behind it, so that it fits its column.
+fn measure(value: f64, digits: usize, unit: &str) -> String {
+    let digits = if value < 99.95 { digits } else { digits - 1 };
+    format!("{value:.digits$}{unit}")
 }
 
 /// A row of the table: whose it is, and its cells, each with its column's width and tip.

@@ -37,7 +37,7 @@ const NAMES: f32 = 60.0;
 /// Width of the column of shades, in points.
 const COUNTS: f32 = 46.0;
 /// Width of the other columns from which on their numbers have units beside them, in points; else the heads name the units.
-const WITH_UNITS: f32 = 62.0;
+const WITH_UNITS: f32 = 58.0;
 /// The heads of narrow columns.
 const NARROW: [&str; 4] = ["shades", "10\u{2013}90 px", "over %", "under %"];
 /// Pieces of the line that give way or are given way to, each by itself.

@@ -265,7 +265,20 @@ fn what_multiplies_is_counted_first() {
         let line = outcome(what, &format!("{definitions}{body}"));
         assert!(line.contains("more than"), "{what}: {line}");
     }
-    // Few elements, but long outlines, which usvg copies.
+    let stops = "<stop/>".repeat(1000);
+    let shapes = "<rect width='1' height='1' fill='url(#g)'/>".repeat(10_000);
+    // Shapes share them.
+    let line = outcome(
+        "stops",
+        &format!("<linearGradient id='g'>{stops}</linearGradient>{shapes}"),
+    );
+    assert!(line.is_empty(), "a thousand stops, ten thousand times: {line}");
+}
+
+/// Few elements, but long outlines, which usvg copies.
+#[test]
+fn outlines_that_multiply_are_counted_first() {
+    let rect = "<rect width='9' height='9'";
     let path = format!("<path id='p' d='M0 0{}'/>", "h1v1".repeat(5_000));
     let marker = format!("<marker id='m'><path d='M0 0{}'/></marker>", "h1v1".repeat(500));
     let edges = "<path d='M0 0h1v1h1v1h1v1h1v1'/>".repeat(10_000);
@@ -302,14 +315,6 @@ fn what_multiplies_is_counted_first() {
         &format!("{marker}<g marker-end='url(#m)'>{}</g>", path.repeat(100)),
     );
     assert!(line.is_empty(), "{line}");
-    let stops = "<stop/>".repeat(1000);
-    let shapes = "<rect width='1' height='1' fill='url(#g)'/>".repeat(10_000);
-    // Shapes share them.
-    let line = outcome(
-        "stops",
-        &format!("<linearGradient id='g'>{stops}</linearGradient>{shapes}"),
-    );
-    assert!(line.is_empty(), "a thousand stops, ten thousand times: {line}");
 }
 
 #[test]

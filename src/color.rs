@@ -4,6 +4,7 @@ mod blend;
 mod blend_all;
 mod colormap;
 mod light;
+mod light_scale;
 mod mix;
 mod over;
 mod ramp;

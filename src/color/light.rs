@@ -1,42 +1,29 @@
-//! Linear light (IEC 61966-2-1): of stored values, summed up over samples, and as bytes again.
+//! Linear light (IEC 61966-2-1) summed up over samples, and as bytes again.
 //!
 //! Sums are whole numbers, so that it does not matter in which order samples are added, and whether one by one or so many
-//! alike at once. From a sum to a byte leads a table: light is cut into pieces so narrow that two of them side by side hold
-//! at most two steps from a byte to the next, and those are compared exactly.
+//! alike at once.
 
 use std::sync::LazyLock;
 
 use super::Premultiplied16;
+use super::light_scale::{Steps, whole_light};
 use crate::rules::Rules;
 
-/// Linear light is kept in parts of this: fine enough to tell all stored values apart, and the sum of 256 samples times
-/// their alpha fits 64 bits.
-pub(super) const ONE_LIGHT: f64 = (1_u64 << 31) as f64;
-
-/// Light that a piece of [`Steps::below`] spans: less than lies between any two bytes, which is least in the dark.
-const PIECE_BITS: u32 = 19;
-const PIECES: usize = (1 << (31 - PIECE_BITS)) + 1;
+/// Bits of linear light: fine enough to tell all stored values apart, and the sum of 256 samples times their alpha fits 64 bits.
+const BITS: u32 = 31;
+const ONE_LIGHT: f64 = (1_u64 << BITS) as f64;
 
 /// Linear light of every stored channel; all of it for numbers that are none.
 static LIGHT: LazyLock<Box<[u32; 1 << 16]>> = LazyLock::new(|| {
-    let mut all = Box::new([of_stored(Premultiplied16::ONE.into()); 1 << 16]);
+    let mut all = Box::new([whole_light::<BITS>(Premultiplied16::ONE.into()); 1 << 16]);
     for (light, stored) in all.iter_mut().zip(0..=Premultiplied16::ONE) {
-        *light = of_stored(stored.into());
+        *light = whole_light::<BITS>(stored.into());
     }
     all
 });
 
-/// How light becomes bytes, rounded to nearest; and truncated.
-static STEPS: LazyLock<[Steps; 2]> = LazyLock::new(|| [0.5, 0.0].map(Steps::new));
-
-/// Where light becomes the next byte.
-#[derive(Debug)]
-pub(super) struct Steps {
-    /// The least light of each byte from 1 on, and more than all light.
-    pub(super) least: [u32; 256],
-    /// How many of these lie below the least light of each piece, or there.
-    below: [u8; PIECES],
-}
+/// How light becomes bytes.
+static STEPS: LazyLock<[Steps<BITS>; 2]> = LazyLock::new(Steps::both);
 
 /// The light of some samples: red, green and blue weighted by alpha, and alpha.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,75 +34,12 @@ pub struct Light([u64; 4]);
 pub struct LightResolver {
     count: u32,
     rules: Rules,
-    steps: &'static Steps,
+    steps: &'static Steps<BITS>,
     light: &'static [u32; 1 << 16],
-    /// What alpha sums up to where all are opaque, and how many pieces of light one unit of a sum is then.
+    /// What alpha sums up to where all are opaque.
     opaque: u64,
-    per_opaque: f64,
-}
-
-/// Linear light of a stored channel.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between nothing and ONE_LIGHT"
-)]
-fn of_stored(stored: f64) -> u32 {
-    (light_of(stored) * ONE_LIGHT).round() as u32
-}
-
-/// Linear light of a stored channel, `0.0..=1.0`.
-pub(super) fn light_of(stored: f64) -> f64 {
-    let stored = stored / f64::from(Premultiplied16::ONE);
-    if stored <= 0.040_45 {
-        stored / 12.92
-    } else {
-        ((stored + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-impl Steps {
-    /// With this much of a byte being enough for the next one's light to be `1 - below` away.
-    fn new(below: f64) -> Self {
-        let per_byte = f64::from(Premultiplied16::PER_BYTE);
-        let mut least = [u32::MAX; 256];
-        for (least, byte) in least.iter_mut().zip(1..=255_u8) {
-            *least = of_stored((f64::from(byte) - below) * per_byte);
-        }
-        let mut pieces = [0; PIECES];
-        for (piece, below) in (0_u64..).zip(&mut pieces) {
-            let count = least.partition_point(|light| u64::from(*light) <= piece << PIECE_BITS);
-            *below = u8::try_from(count).unwrap_or(u8::MAX);
-        }
-        Self { least, below: pieces }
-    }
-
-    /// As `rules` say.
-    pub(super) fn of(rules: Rules) -> &'static Self {
-        match rules {
-            Rules::Standard | Rules::Float => &STEPS[0],
-            Rules::Course => &STEPS[1],
-        }
-    }
-
-    /// The byte for a sum of light weighted by alphas; `scale` is about what makes pieces of such a sum, and no more.
-    #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a byte, and a piece's number of a sum below 2^56"
-    )]
-    fn byte(&self, sum: u64, alphas: u64, scale: f64) -> u32 {
-        // Rounded to a whole number in the lowest bits: a conversion would care for numbers out of range.
-        const WHOLE: f64 = (1_u64 << 52) as f64;
-        let piece = (sum.cast_signed() as f64 * scale - 0.5).max(0.0) + WHOLE;
-        let piece = (piece.to_bits() & 0xFFFF) as usize;
-        let byte = usize::from(self.below[piece.min(PIECES - 1)]);
-        // The sum lies in this piece or in the next one. A mean is at least some light where as many of it are no more than
-        // the sum: nothing is rounded.
-        let is_reached = |byte: usize| usize::from(u64::from(self.least[byte % 256]) * alphas <= sum);
-        let (first, second) = (is_reached(byte), is_reached(byte + 1));
-        (byte + first + (first & second)) as u32
-    }
+    /// What divides by the number of samples: `2^63` by it, rounded up.
+    reciprocal: u64,
 }
 
 impl Light {
@@ -182,10 +106,10 @@ impl LightResolver {
         Self {
             count,
             rules,
-            steps: Steps::of(rules),
+            steps: Steps::by_rules(&STEPS, rules),
             light: &LIGHT,
             opaque,
-            per_opaque: pieces_of(opaque),
+            reciprocal: (1_u64 << 63).div_ceil(u64::from(count.max(1))),
         }
     }
 
@@ -194,10 +118,21 @@ impl LightResolver {
     #[inline]
     pub fn pixel(&self, Light([r, g, b, alphas]): Light) -> u32 {
         if alphas == self.opaque {
-            let byte = |sum| self.steps.byte(sum, alphas, self.per_opaque);
-            return 0xFF00_0000 | byte(r) << 16 | byte(g) << 8 | byte(b);
+            return self.opaque_pixel([r, g, b].map(|sum| sum / u64::from(Premultiplied16::ONE)));
         }
         self.translucent([r, g, b], alphas)
+    }
+
+    /// The pixel of the light of opaque samples.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "a product of at most 39 and 63 bits")]
+    fn opaque_pixel(&self, [r, g, b]: [u64; 3]) -> u32 {
+        // What rounding the reciprocal up adds is less than the part of one sample: the whole part of the mean stays.
+        let byte = |sum: u64| {
+            let mean = (u128::from(sum) * u128::from(self.reciprocal)) >> 63;
+            self.steps.byte(mean as u64)
+        };
+        0xFF00_0000 | byte(r) << 16 | byte(g) << 8 | byte(b)
     }
 
     #[inline(never)]
@@ -207,8 +142,7 @@ impl LightResolver {
         if alphas == 0 {
             return opacity;
         }
-        let scale = pieces_of(alphas);
-        let byte = |sum| self.steps.byte(sum, alphas, scale);
+        let byte = |sum: u64| self.steps.byte(sum / alphas);
         opacity | byte(r) << 16 | byte(g) << 8 | byte(b)
     }
 
@@ -240,27 +174,29 @@ impl LightResolver {
     /// As [`LightResolver::mean`] of opaque samples.
     #[inline]
     pub fn opaque_mean(&self, samples: &[Premultiplied16]) -> u32 {
-        self.pixel(self.opaque_light(samples))
+        self.opaque_pixel(self.opaque_sums(samples))
     }
 
     /// The light of opaque samples.
     #[inline]
     pub fn opaque_light(&self, samples: &[Premultiplied16]) -> Light {
+        let [r, g, b] = self
+            .opaque_sums(samples)
+            .map(|sum| sum * u64::from(Premultiplied16::ONE));
+        Light([r, g, b, samples.len() as u64 * u64::from(Premultiplied16::ONE)])
+    }
+
+    /// The light of opaque samples in parts of [`ONE_LIGHT`].
+    #[inline]
+    fn opaque_sums(&self, samples: &[Premultiplied16]) -> [u64; 3] {
         let mut sums = [0_u64; 3];
         for Premultiplied16([r, g, b, _]) in samples {
             for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
                 *sum += u64::from(self.light[usize::from(*channel)]);
             }
         }
-        let [r, g, b] = sums.map(|sum| sum * u64::from(Premultiplied16::ONE));
-        Light([r, g, b, samples.len() as u64 * u64::from(Premultiplied16::ONE)])
+        sums
     }
-}
-
-/// What makes pieces of light of sums over these alphas, and a little less: so rounding never leads into the piece beyond.
-fn pieces_of(alphas: u64) -> f64 {
-    const LESS: f64 = 1.0 - 1.0 / (1_u64 << 40) as f64;
-    LESS / (alphas as f64 * f64::from(1_u32 << PIECE_BITS))
 }
 
 /// The stored channel whose light is nearest: the way back from [`ONE_LIGHT`] parts.
@@ -319,7 +255,7 @@ mod tests {
             alphas += u32::from(*alpha);
             for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
                 let stored = straight(*channel, *alpha);
-                *sum += u64::from(of_stored(stored.into())) * u64::from(*alpha);
+                *sum += u64::from(whole_light::<BITS>(stored.into())) * u64::from(*alpha);
             }
         }
         let count = u32::try_from(samples.len()).expect("a few");
@@ -330,7 +266,7 @@ mod tests {
         let below = if rules == Rules::Course { 0.0 } else { 0.5 };
         let [r, g, b] = sums.map(|sum| {
             let is_reached = |byte: &u32| {
-                let least = of_stored((f64::from(*byte) - below) * f64::from(Premultiplied16::PER_BYTE));
+                let least = whole_light::<BITS>((f64::from(*byte) - below) * f64::from(Premultiplied16::PER_BYTE));
                 u64::from(least) * u64::from(alphas) <= sum
             };
             (1..=255).take_while(is_reached).count()
@@ -382,27 +318,6 @@ mod tests {
             Ok(())
         })
         .budget_ms(500);
-    }
-
-    #[test]
-    fn every_step_from_byte_to_byte_is_where_its_least_light_is() {
-        for rules in Rules::ALL {
-            let steps = Steps::of(rules);
-            for count in [1_u64, 3, 16, 256] {
-                let alphas = count * u64::from(Premultiplied16::ONE);
-                for (byte, least) in (1_u32..).zip(&steps.least[..255]) {
-                    let sum = u64::from(*least) * alphas;
-                    let of = |sum| steps.byte(sum, alphas, pieces_of(alphas));
-                    assert_eq!((of(sum - 1), of(sum)), (byte - 1, byte), "{rules:?}, {count} samples");
-                }
-            }
-            for pair in steps.least[..255].windows(2) {
-                assert!(
-                    pair[1] - pair[0] > 1 << PIECE_BITS,
-                    "at most one step in a piece: {pair:?}"
-                );
-            }
-        }
     }
 
     #[test]

@@ -5,71 +5,29 @@
 
 use std::sync::LazyLock;
 
-use super::light::{light_of, straight};
+use super::light::straight;
+use super::light_scale::{Steps, whole_light};
 use super::{Premultiplied16, ResolveSpace};
 use crate::rules::Rules;
 
-/// Linear light is kept in parts of this: fine enough to tell all stored values apart, the darkest too, and the weighted sum
-/// of some thousand samples fits 64 bits.
-const ONE_LIGHT: f64 = (1_u32 << 24) as f64;
+/// Bits of linear light: fine enough to tell all stored values apart, the darkest too, and the weighted sum of some thousand samples
+/// fits 64 bits.
+const BITS: u32 = 24;
+const ONE_LIGHT: f64 = (1_u32 << BITS) as f64;
 
 /// Linear light of every stored channel.
-static LIGHT: LazyLock<Vec<i32>> =
-    LazyLock::new(|| (0..=Premultiplied16::ONE).map(|stored| light(stored.into())).collect());
+static LIGHT: LazyLock<Vec<i32>> = LazyLock::new(|| (0..=Premultiplied16::ONE).map(light).collect());
 
-/// How light becomes bytes, rounded to nearest; and truncated.
-static STEPS: LazyLock<[Steps; 2]> = LazyLock::new(|| [0.5, 0.0].map(Steps::new));
+/// The same of every byte, side by side.
+static LIGHT_OF_BYTES: LazyLock<[i32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|byte| LIGHT[byte * usize::from(Premultiplied16::PER_BYTE)]));
 
-/// Light that a piece of [`Steps::below`] spans: less than lies between any two bytes, which is least in the dark.
-const PIECE_BITS: u32 = 12;
-const PIECES: usize = (1 << (24 - PIECE_BITS)) + 1;
-
-/// Where light becomes the next byte.
-#[derive(Debug)]
-struct Steps {
-    /// The least light of each byte from 1 on, and more than all light.
-    least: [i32; 256],
-    /// How many of these each piece of light begins with, or has below it.
-    below: [u8; PIECES],
-}
-
-impl Steps {
-    /// With this much of a byte being enough for the next one's light to be `1 - below` away.
-    fn new(below: f64) -> Self {
-        let per_byte = f64::from(Premultiplied16::PER_BYTE);
-        let mut least = [i32::MAX; 256];
-        for (least, byte) in least.iter_mut().zip(1..=255_u8) {
-            *least = light((f64::from(byte) - below) * per_byte);
-        }
-        let mut pieces = [0; PIECES];
-        for (piece, below) in (0..).zip(&mut pieces) {
-            let count = least.partition_point(|light| *light <= piece << PIECE_BITS);
-            *below = u8::try_from(count).unwrap_or(u8::MAX);
-        }
-        Self { least, below: pieces }
-    }
-
-    /// As `rules` say.
-    fn of(rules: Rules) -> &'static Self {
-        match rules {
-            Rules::Standard | Rules::Float => &STEPS[0],
-            Rules::Course => &STEPS[1],
-        }
-    }
-
-    /// The byte of this light.
-    #[inline]
-    fn byte(&self, light: i64) -> u32 {
-        let light = i32::try_from(light.clamp(0, 1 << 24)).unwrap_or(0);
-        let below = self.below[(light.cast_unsigned() >> PIECE_BITS) as usize % PIECES];
-        u32::from(below) + u32::from(self.least[usize::from(below)] <= light)
-    }
-}
+/// How light becomes bytes.
+static STEPS: LazyLock<[Steps<BITS>; 2]> = LazyLock::new(Steps::both);
 
 /// Linear light of a stored channel.
-#[expect(clippy::cast_possible_truncation, reason = "between nothing and ONE_LIGHT")]
-fn light(stored: f64) -> i32 {
-    (light_of(stored) * ONE_LIGHT).round() as i32
+fn light(stored: u16) -> i32 {
+    whole_light::<BITS>(stored.into()).cast_signed()
 }
 
 /// Red, green, blue and alpha of some samples, each times its weight; and the sum of the weights, which must be above zero.
@@ -143,9 +101,12 @@ impl ResolveSpace {
                     divided(channel * 255, alpha, rules)
                 }
             }
-            // A light is at least another, which is a whole number, where the whole part of it is.
-            Self::Linear if alpha == one => Steps::of(rules).byte(channel.div_euclid(weight)),
-            Self::Linear => encoded(channel, alpha, rules),
+            Self::Linear if alpha == one => byte(channel.div_euclid(weight), rules),
+            Self::Linear => {
+                let full = i128::from(channel) * i128::from(Premultiplied16::ONE);
+                let light = full.div_euclid(alpha.into());
+                byte(i64::try_from(light).unwrap_or(i64::MAX), rules)
+            }
         });
         opacity << 24 | r << 16 | g << 8 | b
     }
@@ -154,7 +115,7 @@ impl ResolveSpace {
     /// rounded to nearest.
     #[inline]
     pub fn opaque_mean(self, pixels: [u32; 2], part: u16) -> u32 {
-        const BITS: u32 = 15;
+        const PART_BITS: u32 = 15;
         let [[_, first @ ..], [_, second @ ..]] = pixels.map(u32::to_be_bytes);
         // Written out, since arrays that are mapped are not always inlined.
         let [r, g, b] = match self {
@@ -162,7 +123,8 @@ impl ResolveSpace {
                 let part = i32::from(part);
                 let mean = |first: u8, second: u8| {
                     let (first, second) = (i32::from(first), i32::from(second));
-                    (((first << BITS) + (second - first) * part + (1 << (BITS - 1))) >> BITS).cast_unsigned()
+                    (((first << PART_BITS) + (second - first) * part + (1 << (PART_BITS - 1))) >> PART_BITS)
+                        .cast_unsigned()
                 };
                 [
                     mean(first[0], second[0]),
@@ -171,12 +133,14 @@ impl ResolveSpace {
                 ]
             }
             Self::Linear => {
-                let steps = Steps::of(Rules::Standard);
+                let (lights, steps) = (&*LIGHT_OF_BYTES, Steps::by_rules(&STEPS, Rules::Standard));
                 let part = i64::from(part);
-                let light = |byte: u8| i64::from(LIGHT[usize::from(Premultiplied16::PER_BYTE) * usize::from(byte)]);
+                let light = |byte: u8| i64::from(lights[usize::from(byte)]);
                 let mean = |first: u8, second: u8| {
                     let (first, second) = (light(first), light(second));
-                    steps.byte(((first << BITS) + (second - first) * part) >> BITS)
+                    // Between the two, so not below zero.
+                    let light = ((first << PART_BITS) + (second - first) * part) >> PART_BITS;
+                    steps.byte(light.cast_unsigned())
                 };
                 [
                     mean(first[0], second[0]),
@@ -189,13 +153,9 @@ impl ResolveSpace {
     }
 }
 
-/// The byte of the light `channel / alpha` of a sum that is not opaque.
-fn encoded(channel: i64, alpha: i64, rules: Rules) -> u32 {
-    let least = &Steps::of(rules).least[..255];
-    // A light is at least another where as much of that is no more: nothing is rounded before.
-    let sum = i128::from(channel) * i128::from(Premultiplied16::ONE);
-    let byte = least.partition_point(|light| i128::from(*light) * i128::from(alpha) <= sum);
-    u32::try_from(byte).unwrap_or(255)
+/// The byte of this light.
+fn byte(light: i64, rules: Rules) -> u32 {
+    Steps::by_rules(&STEPS, rules).byte(light.max(0).cast_unsigned())
 }
 
 /// A part of light, to nearest.

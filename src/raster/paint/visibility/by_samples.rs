@@ -10,6 +10,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::color::{Light, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
+use crate::raster::paint::visibility::known_pixels::KnownPixels;
 use crate::raster::paint::visibility::paint_stack::SurfaceShader;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
@@ -26,6 +27,7 @@ pub(super) struct BySamples {
     pub(super) mean: SampleMean,
     /// The light of surfaces.
     pub(super) lights: Vec<Light>,
+    pub(super) known: KnownPixels,
     pub(super) shades: SampleShades,
 }
 
@@ -58,6 +60,7 @@ impl BySamples {
             positions,
             mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
+            known: KnownPixels::default(),
             shades: SampleShades {
                 inside,
                 ..SampleShades::default()

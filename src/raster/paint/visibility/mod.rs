@@ -8,6 +8,7 @@ pub(in crate::raster) mod buffer;
 mod by_samples;
 pub(in crate::raster) mod flat_resolve;
 mod fragments;
+mod known_pixels;
 mod layer_end;
 pub(in crate::raster) mod packed;
 pub(in crate::raster) mod paint_stack;

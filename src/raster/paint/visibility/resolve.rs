@@ -359,7 +359,7 @@ pub(super) fn columns(range: Range<usize>) -> impl Iterator<Item = u16> {
 pub(super) fn each_shared(
     shown: &Shown<'_>,
     pixels: &mut [u32],
-    of_two: impl Fn(TwoSurfaces) -> u32,
+    mut of_two: impl FnMut(TwoSurfaces) -> u32,
     of_split: impl Fn(usize) -> u32,
 ) {
     let mut rest = shown.shared;

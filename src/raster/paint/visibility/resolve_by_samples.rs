@@ -93,7 +93,8 @@ impl VisibilityPainter<'_> {
             return;
         };
         let all = (0..self.surfaces.len()).map(|i| SurfaceId::try_from(i).unwrap_or(0));
-        let lights = &mut self.by_samples.lights;
+        let BySamples { lights, known, .. } = &mut self.by_samples;
+        known.clear();
         lights.clear();
         lights.extend(all.map(|surface| Light::new(self.surfaces.get(surface).flat)));
         let (tile, surfaces, lights) = (self.layers.base(), &self.surfaces, &*lights);
@@ -111,7 +112,12 @@ impl VisibilityPainter<'_> {
             };
             let shown = tile.shown(y);
             table.row(shown.whole, line);
-            each_shared(&shown, line, |two| flat.two(two), |x| flat.split(tile, x, y));
+            each_shared(
+                &shown,
+                line,
+                |two| known.pixel(two, || flat.two(two)),
+                |x| flat.split(tile, x, y),
+            );
         }
     }
 }

@@ -27,14 +27,14 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8, u8x32};
 
 use super::bilinear::per_tap;
-use super::block_weights::{Blocks, LARGE, SMALL, Step, Tap, place_centres, rows, rows_beyond};
+use super::block_weights::{Blocks, LARGE, OneTap, SMALL, Step, Tap, place_centres, rows, rows_beyond};
 use super::cubic::TexelWeights;
 use super::filter_plan::{GridLevel, Plan};
-use super::fixed_point::MASS;
+use super::fixed_point::{FRACTION_BITS, MASS};
 use super::sample_filter::{BLOCK, SampleVector, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
 use super::texel_coordinates::{Positions, columns_and_rows};
-use super::{MipLevel, shared_blocks};
+use super::{MipLevel, sample_filter, shared_blocks};
 
 /// Stands for the offset of a block that reaches beyond the level.
 const BEYOND: i32 = -1;
@@ -80,7 +80,13 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
     let count = plan.line.taps.count;
     let scale = per_tap(count);
     let mut cells = Cells::EMPTY;
+    let levels = [Some(&plan.finer), plan.coarser.as_ref()].map(|level| Some(OneTap::new(plan, weights, level?)));
+    let mut inside = [sample_filter::Cells::EMPTY; 2];
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
+        if SIDE == SMALL && count == 1 && note_inside(simd, &levels, points, &mut inside) {
+            sample_filter::weigh(simd, spread, plan, &inside, out);
+            continue;
+        }
         // Even and odd columns of each sample.
         let mut sums = [i32x8::splat(simd, 0); BLOCK];
         for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
@@ -111,6 +117,39 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
     }
 }
 
+/// Notes where up to [`BLOCK`] samples read the levels; whether none of them reads across a border.
+#[inline(always)]
+fn note_inside<S: Simd>(
+    simd: S,
+    levels: &[Option<OneTap<'_>>; 2],
+    points: &[[u16; 2]],
+    cells: &mut [sample_filter::Cells; 2],
+) -> bool {
+    let lanes = S::u32s::LEN;
+    let last = points.len().saturating_sub(lanes);
+    let mut are_inside = true;
+    for first in (0..points.len()).step_by(lanes) {
+        let first = first.min(last);
+        for (one, cells) in levels.iter().flatten().zip(&mut *cells) {
+            let Tap { plan, level, .. } = one.tap;
+            let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
+            let [x, y] = one.places(simd, &at);
+            // Without a sign, numbers below zero are the largest.
+            let beyond = x.bitcast::<S::u32s>().simd_gt(farthest(simd, level.level.width()))
+                | y.bitcast::<S::u32s>().simd_gt(farthest(simd, level.level.height()));
+            are_inside &= !beyond.any_true();
+            cells.note(simd, plan.pixel, level, SampleVector { at: [x, y], first });
+        }
+    }
+    are_inside
+}
+
+/// Of an axis with so many texels, the centre of the last one.
+#[inline(always)]
+fn farthest<S: Simd>(simd: S, size: u32) -> S::u32s {
+    S::u32s::splat(simd, (size - 1) << FRACTION_BITS)
+}
+
 /// Where the samples of a block lie in a level, in fixed point: columns, then rows; not yet inside it where taps are added.
 type Centres = [[i32; BLOCK]; 2];
 
@@ -124,7 +163,7 @@ fn centres<S: Simd>(simd: S, plan: &Plan<'_>, level: &GridLevel<'_>, points: &[[
         let first = first.min(last);
         let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
         for (centres, axis) in centres.iter_mut().zip([&level.x, &level.y]) {
-            let places = place_centres(simd, plan, &at, axis);
+            let places = place_centres(simd, plan.endless(axis).as_ref(), plan.line.taps.count, (&at, axis));
             places.store_slice(&mut centres[first..first + lanes]);
         }
     }
@@ -221,7 +260,7 @@ impl Cells {
         let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
         let rows = match usize::try_from(self.offsets[i]) {
             Ok(offset) => rows::<S, SIDE>(simd, level, offset),
-            Err(_) => rows_beyond(simd, level, plan.wrap, [self.corners[0][i], self.corners[1][i]]),
+            Err(_) => rows_beyond::<S, SIDE>(simd, level, plan.wrap, [self.corners[0][i], self.corners[1][i]]),
         };
         if SIDE == SMALL {
             return quarter(rows[0].zip_low(rows[1]), 0);

@@ -12,7 +12,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, u8x16};
+use fearless_simd::{Simd, u8x16, u64x2};
 
 use super::cubic::{TexelWeights, WHOLE};
 use super::filter_plan::{Axis, GridLevel, Plan};
@@ -53,6 +53,40 @@ pub(super) struct Step {
     endless: Option<Endless>,
 }
 
+/// Where the taps of one number read a level whose samples have no other.
+#[derive(Clone, Copy)]
+pub(super) struct OneTap<'p> {
+    pub(super) tap: Tap<'p>,
+    right: Step,
+    down: Step,
+}
+
+impl<'p> OneTap<'p> {
+    #[inline(always)]
+    pub(super) fn new(plan: &'p Plan<'p>, weights: &'p TexelWeights, level: &'p GridLevel<'p>) -> Self {
+        let tap = Tap {
+            plan,
+            weights,
+            level,
+            number: 0,
+        };
+        Self {
+            tap,
+            right: Step::new(tap, &level.x),
+            down: Step::new(tap, &level.y),
+        }
+    }
+
+    /// Columns and rows, in fixed point.
+    #[inline(always)]
+    pub(super) fn places<S: Simd>(&self, simd: S, at: &Positions<S>) -> [S::i32s; 2] {
+        let GridLevel { x, y, .. } = self.tap.level;
+        let x = place_centres(simd, self.right.endless.as_ref(), 1, (at, x));
+        let y = place_centres(simd, self.down.endless.as_ref(), 1, (at, y));
+        [self.right.place(simd, x), self.down.place(simd, y)]
+    }
+}
+
 impl Step {
     #[inline(always)]
     pub(super) fn new(Tap { plan, number, .. }: Tap<'_>, axis: &Axis) -> Self {
@@ -80,11 +114,16 @@ impl Step {
     }
 }
 
-/// Where samples lie on an axis, in fixed point; not yet inside the level where taps are added.
+/// Where samples of so many taps lie on an axis, in fixed point; not yet inside the level where taps are added.
 #[inline(always)]
-pub(super) fn place_centres<S: Simd>(simd: S, plan: &Plan<'_>, at: &Positions<S>, axis: &Axis) -> S::i32s {
-    match (plan.endless(axis), plan.line.taps.count) {
-        (Some(endless), _) => at.endless(simd, axis, &endless),
+pub(super) fn place_centres<S: Simd>(
+    simd: S,
+    endless: Option<&Endless>,
+    taps: u32,
+    (at, axis): (&Positions<S>, &Axis),
+) -> S::i32s {
+    match (endless, taps) {
+        (Some(endless), _) => at.endless(simd, axis, endless),
         (None, 1) => at.near(simd, axis, FRACTION_BITS),
         (None, _) => at.far(simd, axis),
     }
@@ -207,17 +246,41 @@ pub(super) fn rows<S: Simd, const SIDE: usize>(simd: S, level: &MipLevel, offset
 
 /// The same of a block of which some texels lie beyond the level, by its first column and row.
 #[inline(always)]
-pub(super) fn rows_beyond<S: Simd>(simd: S, level: &MipLevel, wrap: Wrap, corner: [i32; 2]) -> [u8x16<S>; 4] {
-    let [a, b, c, d] = beyond(level, wrap, corner);
-    [row(simd, &a), row(simd, &b), row(simd, &c), row(simd, &d)]
+pub(super) fn rows_beyond<S: Simd, const SIDE: usize>(
+    simd: S,
+    level: &MipLevel,
+    wrap: Wrap,
+    corner: [i32; 2],
+) -> [u8x16<S>; 4] {
+    // As numbers they go from register to register: a vector of what was just stored one by one has to wait for it.
+    beyond::<SIDE>(level, wrap, corner).map(|row| u64x2::simd_from(simd, row).bitcast())
 }
 
+/// Rows of texels, two in each number.
 #[cold]
 #[inline(never)]
-fn beyond(level: &MipLevel, wrap: Wrap, [left, top]: [i32; 2]) -> [[[u8; 4]; LARGE]; LARGE] {
-    let columns = [0, 1, 2, 3].map(|x| wrap.texel(left + x, level.width()));
-    let rows = [0, 1, 2, 3].map(|y| wrap.texel(top + y, level.height()));
-    rows.map(|y| columns.map(|x| level.texel(x, y)))
+fn beyond<const SIDE: usize>(level: &MipLevel, wrap: Wrap, [left, top]: [i32; 2]) -> [[u64; 2]; LARGE] {
+    let columns = wrapped::<SIDE>(wrap, left, level.width());
+    let rows = wrapped::<SIDE>(wrap, top, level.height());
+    let mut found = [[0; 2]; LARGE];
+    for (found, y) in found.iter_mut().zip(rows).take(SIDE) {
+        let texel = |i: usize| u64::from(u32::from_le_bytes(level.texel(columns[i], y)));
+        *found = [texel(0) | texel(1) << 32, 0];
+        if SIDE == LARGE {
+            found[1] = texel(2) | texel(3) << 32;
+        }
+    }
+    found
+}
+
+/// What stands in `SIDE` columns or rows from one on.
+#[inline]
+fn wrapped<const SIDE: usize>(wrap: Wrap, first: i32, side: u32) -> [i32; LARGE] {
+    let mut found = [0; LARGE];
+    for (found, at) in found.iter_mut().zip(first..).take(SIDE) {
+        *found = wrap.texel(at, side);
+    }
+    found
 }
 
 /// Four texels.

@@ -53,15 +53,26 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, poin
     let spread = Spread::new(simd);
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
         prepare(simd, plan, points, &mut cells);
-        let [finer, coarser] = &cells;
-        let finer = Source::new(&plan.finer, finer);
-        let coarser = plan.coarser.as_ref().map(|level| Source::new(level, coarser));
-        match (plan.pixel, coarser) {
-            (PixelSampling::Nearest, None) => nearest(simd, finer, out),
-            (PixelSampling::Nearest, Some(coarser)) => nearest_mixed(simd, finer, coarser, out),
-            (_, None) => bilinear(simd, spread, finer, out),
-            (_, Some(coarser)) => trilinear(simd, spread, [finer, coarser], out),
-        }
+        weigh(simd, spread, plan, &cells, out);
+    }
+}
+
+/// The colours of up to [`BLOCK`] samples that read the levels there.
+#[inline(always)]
+pub(super) fn weigh<S: Simd, C: FromColors>(
+    simd: S,
+    spread: Spread<S>,
+    plan: &Plan<'_>,
+    [finer, coarser]: &[Cells; 2],
+    out: &mut [C],
+) {
+    let finer = Source::new(&plan.finer, finer);
+    let coarser = plan.coarser.as_ref().map(|level| Source::new(level, coarser));
+    match (plan.pixel, coarser) {
+        (PixelSampling::Nearest, None) => nearest(simd, finer, out),
+        (PixelSampling::Nearest, Some(coarser)) => nearest_mixed(simd, finer, coarser, out),
+        (_, None) => bilinear(simd, spread, finer, out),
+        (_, Some(coarser)) => trilinear(simd, spread, [finer, coarser], out),
     }
 }
 

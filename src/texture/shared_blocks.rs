@@ -19,7 +19,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8, u32x8};
 
 use super::bilinear::SUM_SHIFT;
-use super::block_weights::{Blocks, SMALL, Step, Tap, place_centres, rows, rows_beyond};
+use super::block_weights::{Blocks, OneTap, SMALL, rows, rows_beyond};
 use super::cubic::TexelWeights;
 use super::filter_plan::{GridLevel, Plan};
 use super::sample_filter::by_fours;
@@ -61,19 +61,11 @@ pub(super) fn filter_with<S: Simd, C: FromColors, const SIDE: usize>(
 ) {
     let lanes = S::u32s::LEN;
     let level = &plan.finer;
-    let tap = Tap {
-        plan,
-        weights,
-        level,
-        number: 0,
-    };
-    let (right, down) = (Step::new(tap, &level.x), Step::new(tap, &level.y));
+    let one = OneTap::new(plan, weights, level);
     let mut texels = Texels::NONE;
     for (points, out) in points.chunks(lanes).zip(out.chunks_mut(lanes)) {
         let at = Positions::new(simd, columns_and_rows(simd, points), plan.first);
-        let x = right.place(simd, place_centres(simd, plan, &at, &level.x));
-        let y = down.place(simd, place_centres(simd, plan, &at, &level.y));
-        let blocks = Blocks::new::<SIDE>(simd, tap, [x, y]);
+        let blocks = Blocks::new::<SIDE>(simd, one.tap, one.places(simd, &at));
         let sums = sums::<S, SIDE>(simd, (plan, level), &blocks, &mut texels);
         let words = colors(simd, sums, level.mass);
         by_fours!(simd, out, |i| {
@@ -160,7 +152,7 @@ impl Texels {
             let offset = top * level.stride().cast_signed() + left;
             rows::<S, SIDE>(simd, level, offset.cast_unsigned() as usize)
         } else {
-            rows_beyond(simd, level, plan.wrap, [left, top])
+            rows_beyond::<S, SIDE>(simd, level, plan.wrap, [left, top])
         };
         let pairs = self.pairs.as_flattened_mut();
         widen(a.zip_low(b)).bitcast::<i32x8<S>>().store_slice(&mut pairs[..8]);

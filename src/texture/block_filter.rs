@@ -24,7 +24,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i32x8, u8x32};
+use fearless_simd::{Simd, i32x8, u8x16, u8x32};
 
 use super::bilinear::per_tap;
 use super::block_weights::{Blocks, LARGE, OneTap, SMALL, Step, Tap, place_centres, rows, rows_beyond};
@@ -85,6 +85,20 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
         if SIDE == SMALL && count == 1 && note_inside(simd, &levels, points, &mut inside) {
             sample_filter::weigh(simd, spread, plan, &inside, out);
+            continue;
+        }
+        if let (LARGE, 1, [Some(one), None]) = (SIDE, count, &levels)
+            && cells.note_inside(simd, one, points)
+        {
+            let level = one.tap.level.level;
+            by_fours!(simd, out, |i| {
+                let first = cells.inside::<S, LARGE>(simd, spread, level, i);
+                let second = cells.inside::<S, LARGE>(simd, spread, level, i + 1);
+                let third = cells.inside::<S, LARGE>(simd, spread, level, i + 2);
+                let fourth = cells.inside::<S, LARGE>(simd, spread, level, i + 3);
+                let low = clamped(simd, both_columns(first, second), 1);
+                round(simd, low, clamped(simd, both_columns(third, fourth), 1))
+            });
             continue;
         }
         // Even and odd columns of each sample.
@@ -209,9 +223,24 @@ impl Cells {
         }
     }
 
-    /// Notes the cells of a vector of samples.
+    /// Notes the large cells of up to [`BLOCK`] samples that have one tap; whether all lie inside the level.
     #[inline(always)]
-    fn note<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) {
+    fn note_inside<S: Simd>(&mut self, simd: S, one: &OneTap<'_>, points: &[[u16; 2]]) -> bool {
+        let lanes = S::u32s::LEN;
+        let last = points.len().saturating_sub(lanes);
+        let mut are_inside = true;
+        for first in (0..points.len()).step_by(lanes) {
+            let first = first.min(last);
+            let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), one.tap.plan.first);
+            let at = one.places(simd, &at);
+            are_inside &= self.note::<S, LARGE>(simd, one.tap, SampleVector { at, first });
+        }
+        are_inside
+    }
+
+    /// Notes the cells of a vector of samples; whether all lie inside the level.
+    #[inline(always)]
+    fn note<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) -> bool {
         let SampleVector { at, first } = vector;
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
@@ -236,6 +265,7 @@ impl Cells {
             self.keep::<S>(2, first, in_columns::<S>(weights[4], weights[5]));
             self.keep::<S>(3, first, in_columns::<S>(weights[6], weights[7]));
         }
+        inside.all_true()
     }
 
     /// Keeps the weights of a vector's quarters.
@@ -257,16 +287,38 @@ impl Cells {
         i: usize,
     ) -> i32x8<S> {
         let i = i % BLOCK;
-        let quarter = |texels, quarter: usize| spread.columns(simd, texels, self.weights[quarter][i]);
-        let rows = match usize::try_from(self.offsets[i]) {
-            Ok(offset) => rows::<S, SIDE>(simd, level, offset),
-            Err(_) => rows_beyond::<S, SIDE>(simd, level, plan.wrap, [self.corners[0][i], self.corners[1][i]]),
-        };
-        if SIDE == SMALL {
-            return quarter(rows[0].zip_low(rows[1]), 0);
+        if self.offsets[i] != BEYOND {
+            return self.inside::<S, SIDE>(simd, spread, level, i);
         }
-        let upper = quarter(rows[0].zip_low(rows[1]), 0) + quarter(rows[0].zip_high(rows[1]), 1);
-        let lower = quarter(rows[2].zip_low(rows[3]), 2) + quarter(rows[2].zip_high(rows[3]), 3);
+        let corner = [self.corners[0][i], self.corners[1][i]];
+        let rows = rows_beyond::<S, SIDE>(simd, level, plan.wrap, corner);
+        self.weighed::<S, SIDE>(simd, spread, rows, i)
+    }
+
+    /// The same of a sample whose block lies inside the level.
+    #[inline(always)]
+    fn inside<S: Simd, const SIDE: usize>(&self, simd: S, spread: Spread<S>, level: &MipLevel, i: usize) -> i32x8<S> {
+        let i = i % BLOCK;
+        let rows = rows::<S, SIDE>(simd, level, self.offsets[i].cast_unsigned() as usize);
+        self.weighed::<S, SIDE>(simd, spread, rows, i)
+    }
+
+    #[inline(always)]
+    fn weighed<S: Simd, const SIDE: usize>(
+        &self,
+        simd: S,
+        spread: Spread<S>,
+        rows: [u8x16<S>; 4],
+        i: usize,
+    ) -> i32x8<S> {
+        let weights = |quarter: usize| self.weights[quarter][i];
+        let upper = spread.columns(simd, rows[0].zip_low(rows[1]), weights(0));
+        if SIDE == SMALL {
+            return upper;
+        }
+        let upper = upper + spread.columns(simd, rows[0].zip_high(rows[1]), weights(1));
+        let lower = spread.columns(simd, rows[2].zip_low(rows[3]), weights(2))
+            + spread.columns(simd, rows[2].zip_high(rows[3]), weights(3));
         upper + lower
     }
 }

@@ -71,12 +71,18 @@ impl<'a> BoxFilter<'a> {
     pub(super) fn colors(&self, simd: Level, places: &Places) -> [Premultiplied16; LANES] {
         let mut out = [Premultiplied16::TRANSPARENT; LANES];
         if let Some(sums) = self.table.of_bytes() {
-            dispatch!(simd, simd => each_mean(simd, self, sums, places, |lane, mean| {
-                out[lane] = match mean {
-                    Some(mean) => Premultiplied16(<[f32; 4]>::from(mean).map(whole)),
-                    None => self.anywhere(places, lane),
-                };
-            }));
+            dispatch!(simd, simd => simd.vectorize(
+                #[inline(always)]
+                || {
+                    let means = Means::new(self, sums, places);
+                    for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+                        *out = match means.of(simd, lane) {
+                            Some(mean) => Premultiplied16(<[f32; 4]>::from(mean).map(whole)),
+                            None => self.anywhere(places, lane),
+                        };
+                    }
+                },
+            ));
         } else {
             for (lane, out) in out.iter_mut().enumerate().take(places.count) {
                 *out = self.anywhere(places, lane);
@@ -154,6 +160,60 @@ impl Borders {
     }
 }
 
+/// The boxes of some samples, and the table that they are read from.
+struct Means<'t> {
+    sums: &'t [[u32; 4]],
+    stride: usize,
+    x: Borders,
+    y: Borders,
+    per_texel: f32,
+}
+
+impl<'t> Means<'t> {
+    #[inline(always)]
+    fn new(filter: &BoxFilter<'_>, sums: &'t [[u32; 4]], places: &Places) -> Self {
+        let [width, height] = filter.table.size();
+        let half = (filter.area.sides * 0.5).min(DVec2::splat(REACH));
+        let wrap = filter.texels.wrap;
+        Self {
+            sums,
+            stride: width as usize + 1,
+            x: Borders::new(wrap, width, &places.x, half.x),
+            y: Borders::new(wrap, height, &places.y, half.y),
+            per_texel: narrow(f64::from(Premultiplied16::PER_BYTE) / (half * 2.0).element_product()),
+        }
+    }
+
+    /// The channels of a mean, which are whole numbers; `None` where the box lies across a border.
+    // No callback for each of them: what it adds up would be stored and loaded again for every sample.
+    #[inline(always)]
+    fn of<S: Simd>(&self, simd: S, lane: usize) -> Option<f32x4<S>> {
+        let Self { stride, x, y, .. } = self;
+        let lane = lane % LANES;
+        if !(x.is_inside[lane] && y.is_inside[lane]) {
+            return None;
+        }
+        let (left, right) = (x.at[0][lane] as usize, x.at[1][lane] as usize);
+        let (top, bottom) = (y.at[0][lane] as usize * stride, y.at[1][lane] as usize * stride);
+        let left = strips(simd, self.sums, *stride, [top + left, bottom + left]);
+        let right = strips(simd, self.sums, *stride, [top + right, bottom + right]);
+        let weights = [1.0, y.parts[0][lane], y.parts[1][lane]];
+        let mut wide = f32x8::splat(simd, 0.0);
+        let mut narrow = f32x4::splat(simd, 0.0);
+        for i in 0..3 {
+            let (before, after) = (right[i] - left[i]).split();
+            let signed: i32x8<S> = before.combine(after - before).bitcast();
+            wide += signed.to_float::<f32x8<S>>() * weights[i];
+            let (before, after) = left[i].split();
+            let signed: i32x4<S> = (after - before).bitcast();
+            narrow += signed.to_float::<f32x4<S>>() * weights[i];
+        }
+        let (all, more) = wide.split();
+        let sum = all + more * x.parts[0][lane] + narrow * x.parts[1][lane];
+        Some(sum * self.per_texel + ROUNDING - ROUNDING)
+    }
+}
+
 /// The sum of the channels at places, whole numbers; the colours of those whose boxes lie across a border are given to `add`.
 #[inline(always)]
 fn total<S: Simd>(
@@ -163,75 +223,33 @@ fn total<S: Simd>(
     places: &Places,
     mut add: impl FnMut(Premultiplied16),
 ) -> [f32; 4] {
+    let means = Means::new(filter, sums, places);
     let mut all = f32x4::splat(simd, 0.0);
-    each_mean(simd, filter, sums, places, |lane, mean| match mean {
-        Some(mean) => all += mean,
-        None => add(filter.anywhere(places, lane)),
-    });
+    for lane in 0..places.count.min(LANES) {
+        match means.of(simd, lane) {
+            Some(mean) => all += mean,
+            None => add(filter.anywhere(places, lane)),
+        }
+    }
     all.into()
 }
 
-/// Calls `visit` with each lane and the channels of its mean, which are whole numbers; `None` where its box lies across a border.
+/// A number of a table and the next, and those of the next row.
 #[inline(always)]
-fn each_mean<S: Simd>(
-    simd: S,
-    filter: &BoxFilter<'_>,
-    sums: &[[u32; 4]],
-    places: &Places,
-    mut visit: impl FnMut(usize, Option<f32x4<S>>),
-) {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let [width, height] = filter.table.size();
-            let stride = width as usize + 1;
-            let half = (filter.area.sides * 0.5).min(DVec2::splat(REACH));
-            let wrap = filter.texels.wrap;
-            let [x, y] = [
-                Borders::new(wrap, width, &places.x, half.x),
-                Borders::new(wrap, height, &places.y, half.y),
-            ];
-            let per_texel = narrow(f64::from(Premultiplied16::PER_BYTE) / (half * 2.0).element_product());
-            for lane in 0..places.count.min(LANES) {
-                if !(x.is_inside[lane] && y.is_inside[lane]) {
-                    visit(lane, None);
-                    continue;
-                }
-                let (left, right) = (x.at[0][lane] as usize, x.at[1][lane] as usize);
-                let (top, bottom) = (y.at[0][lane] as usize * stride, y.at[1][lane] as usize * stride);
-                let left = strips(simd, sums, stride, [top + left, bottom + left]);
-                let right = strips(simd, sums, stride, [top + right, bottom + right]);
-                let weights = [1.0, y.parts[0][lane], y.parts[1][lane]];
-                let mut wide = f32x8::splat(simd, 0.0);
-                let mut narrow = f32x4::splat(simd, 0.0);
-                for i in 0..3 {
-                    let (before, after) = (right[i] - left[i]).split();
-                    let signed: i32x8<S> = before.combine(after - before).bitcast();
-                    wide += signed.to_float::<f32x8<S>>() * weights[i];
-                    let (before, after) = left[i].split();
-                    let signed: i32x4<S> = (after - before).bitcast();
-                    narrow += signed.to_float::<f32x4<S>>() * weights[i];
-                }
-                let (all, more) = wide.split();
-                let sum = all + more * x.parts[0][lane] + narrow * x.parts[1][lane];
-                visit(lane, Some(sum * per_texel + ROUNDING - ROUNDING));
-            }
-        },
-    );
-}
-
-/// A number of a table and the next.
-#[inline(always)]
-fn two<S: Simd>(simd: S, sums: &[[u32; 4]], at: usize) -> u32x8<S> {
-    u32x8::from_slice(simd, sums[at..at + 2].as_flattened())
+fn four<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, at: usize) -> [u32x8<S>; 2] {
+    let rows = &sums[at..][..stride + 2];
+    [
+        u32x8::from_slice(simd, rows[..2].as_flattened()),
+        u32x8::from_slice(simd, rows[stride..].as_flattened()),
+    ]
 }
 
 /// From four rows of a table, each of the last and the next numbers before a border, the differences that [`Borders::parts`]
 /// weighs: both rows above the box and both below it begin at `[above, below]` and one row later.
 #[inline(always)]
 fn strips<S: Simd>(simd: S, sums: &[[u32; 4]], stride: usize, [above, below]: [usize; 2]) -> [u32x8<S>; 3] {
-    let (first, second) = (two(simd, sums, above), two(simd, sums, above + stride));
-    let (third, fourth) = (two(simd, sums, below), two(simd, sums, below + stride));
+    let [first, second] = four(simd, sums, stride, above);
+    let [third, fourth] = four(simd, sums, stride, below);
     [third - first, (fourth - third) - (second - first), second - first]
 }
 

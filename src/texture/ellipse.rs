@@ -24,7 +24,11 @@ const SHORTEST: f64 = 1.0;
 const LONGEST: f64 = 2.0 * SHORTEST * MOST_ECCENTRIC;
 /// What to multiply the powers of `e = 1 - q` by, from the first on, for their sum to be `exp(-2 q) - exp(-2)`: by Chebyshev
 /// interpolation of what is left of it when `e` is divided by; it errs by less than 0.001.
-pub(super) const SERIES: [f32; 4] = [0.270_098_33, 0.288_809_73, 0.094_357_716, 0.210_595_3];
+const SERIES: [f64; 4] = [0.270_098_33, 0.288_809_73, 0.094_357_716, 0.210_595_3];
+/// Adding and subtracting this rounds to [`Quadratic::nearest`]'s multiples; of numbers below 512.
+pub(super) const TO_PARTS: f32 = 1536.0;
+/// The bits of a 32-bit float that weights keep: 16 of the fraction's 24 with the first one, which is not stored.
+pub(super) const KEPT: u32 = 0xFFFF_FF00;
 
 /// An ellipse on a level, about the point that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +50,9 @@ struct Moments {
 }
 
 /// Where a point lies in an ellipse about another: `q` is `dy dy down + (dx - dy lean)^2 growth`.
+///
+/// Weights are divided by their sum, so that what all of them are multiplied by may be left out: [`Quadratic::within`] is
+/// `1 - q` divided by `growth`, and the highest power of it in a weight stands alone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quadratic {
     /// What `q` is at least, by the square of the distance from the middle's row.
@@ -54,6 +61,11 @@ pub(super) struct Quadratic {
     pub(super) lean: f32,
     /// What it grows by with the square of the distance from there.
     pub(super) growth: f32,
+    /// `1 / growth`, and `down / growth`.
+    pub(super) most: f32,
+    pub(super) fall: f32,
+    /// What to multiply the first powers of [`Quadratic::within`] by.
+    pub(super) series: [f32; 3],
 }
 
 impl Ellipse {
@@ -88,21 +100,39 @@ impl Ellipse {
             Line::Row
         };
         let [xx, yy] = line.turned([xx, yy]);
+        let growth = yy / (xx * yy - xy * xy);
+        let [a, b, c, d] = SERIES;
         let quadratic = Quadratic {
             down: narrow(1.0 / yy),
             lean: narrow(xy / yy),
-            growth: narrow(yy / (xx * yy - xy * xy)),
+            growth: narrow(growth),
+            most: narrow(1.0 / growth),
+            fall: narrow(1.0 / (yy * growth)),
+            series: [a / (d * growth.powi(3)), b / (d * growth.powi(2)), c / (d * growth)].map(narrow),
         };
         (line, quadratic)
     }
 }
 
 impl Quadratic {
-    /// `1 - q` at a place relative to the middle, in texels: nothing at the rim, and less beyond.
+    /// `1 - q`, divided by `growth`, at a place relative to the middle, in texels: nothing at the rim, and less beyond.
+    ///
+    /// Where a row is nearest to the middle is rounded to parts of a texel, so that the distance of a texel from there is exact
+    /// whatever it is counted from.
     #[inline]
     pub(super) fn within(self, [right, below]: [f32; 2]) -> f32 {
-        let beside = right - below * self.lean;
-        (1.0 - below * below * self.down) - beside * beside * self.growth
+        let nearest = (below * self.lean + TO_PARTS) - TO_PARTS;
+        let beside = right - nearest;
+        (self.most - below * below * self.fall) - beside * beside
+    }
+
+    /// What a texel weighs by what it is within, not yet divided by the sum of all. It has so few digits that products with bytes
+    /// are exact, so that an instruction that adds one may round once or twice.
+    #[inline]
+    pub(super) fn weight(self, within: f32) -> f32 {
+        let [a, b, c] = self.series;
+        let within = within.max(0.0);
+        f32::from_bits((within * (within * (within * (within + c) + b) + a)).to_bits() & KEPT)
     }
 
     /// Half the height of the ellipse.
@@ -110,14 +140,6 @@ impl Quadratic {
     pub(super) fn half_height(self) -> f32 {
         self.down.sqrt().recip()
     }
-}
-
-/// What a texel weighs by its `1 - q`, not yet divided by the sum of all.
-#[inline]
-pub(super) fn weight(within: f32) -> f32 {
-    let [a, b, c, d] = SERIES;
-    let within = within.max(0.0);
-    within * (within * (within * (within * d + c) + b) + a)
 }
 
 impl Moments {

@@ -10,10 +10,10 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x16, i32x16};
+use fearless_simd::{Simd, dispatch, f32x16, i32x16, u32x16};
 use glam::DVec2;
 
-use super::ellipse::{Quadratic, SERIES, weight};
+use super::ellipse::{KEPT, Quadratic, TO_PARTS};
 use super::sample_places::{LANES, Places, WeighSamples, rounded};
 use super::texel_blocks::{EndlessLevel, Line};
 use crate::color::Premultiplied16;
@@ -81,7 +81,8 @@ impl EwaFilter<'_> {
         for y in samples.rows(self.quadratic) {
             let [first, last] = samples.columns(simd, self.quadratic, y).map(|columns| columns[0]);
             for x in first..=last {
-                let part = weight(self.quadratic.within([x as f32 - px, y as f32 - py]));
+                let within = self.quadratic.within([x as f32 - px, y as f32 - py]);
+                let part = self.quadratic.weight(within);
                 if part > 0.0 {
                     let at = self.line.turned([samples.base[0] + x, samples.base[1] + y]);
                     found.push((at, f64::from(part)));
@@ -94,9 +95,9 @@ impl EwaFilter<'_> {
     /// As [`WeighSamples::channels`], of which some are not the greatest number.
     #[inline(always)]
     fn channels_by<S: Simd, const CHANNELS: usize>(&self, simd: S, samples: &Samples<S>) -> [f32x16<S>; 4] {
-        let [a, b, c, d] = SERIES.map(|factor| f32x16::splat(simd, factor));
         let quadratic = self.quadratic;
-        let growth = f32x16::splat(simd, quadratic.growth);
+        let [a, b, c] = quadratic.series.map(|factor| f32x16::splat(simd, factor));
+        let kept = u32x16::splat(simd, KEPT);
         let nothing = f32x16::splat(simd, 0.0);
         let mut total = nothing;
         let mut sums = [nothing; CHANNELS];
@@ -111,19 +112,19 @@ impl EwaFilter<'_> {
                 let columns = [left, right].map(|x| samples.base[0] + x);
                 let row = self.texels.line(self.line, samples.base[1] + y, columns);
                 let below = f32x16::splat(simd, y as f32) - samples.y;
-                let most = 1.0 - below * below * quadratic.down;
-                let nearest = below * quadratic.lean;
-                let mut from_left = f32x16::splat(simd, left as f32) - samples.x;
+                let most = quadratic.most - below * below * quadratic.fall;
+                let nearest = (below * quadratic.lean + TO_PARTS) - TO_PARTS;
+                let mut beside = f32x16::splat(simd, left as f32) - samples.x - nearest;
                 for number in 0..row.blocks {
                     for texel in &row.block(simd, number) {
-                        let beside = from_left - nearest;
-                        let within = (most - beside * beside * growth).max(nothing);
-                        let weight = within * (within * (within * (within * d + c) + b) + a);
+                        let within = (most - beside * beside).max(nothing);
+                        let weight = within * (within * (within * (within + c) + b) + a);
+                        let weight: f32x16<S> = (weight.bitcast::<u32x16<S>>() & kept).bitcast();
                         total += weight;
                         for (sum, channel) in sums.iter_mut().zip(texel) {
-                            *sum += weight * *channel;
+                            *sum = weight.mul_add(*channel, *sum);
                         }
-                        from_left += 1.0;
+                        beside += 1.0;
                     }
                 }
                 y += 1;
@@ -162,7 +163,7 @@ impl<S: Simd> Samples<S> {
         if x.abs().max(y.abs()).reduce_max() > FAR {
             return None;
         }
-        let Quadratic { down, lean, growth } = filter.quadratic;
+        let Quadratic { down, lean, growth, .. } = filter.quadratic;
         let below = y - middle[1];
         let beside = x - middle[0] - below * lean;
         let beyond = below * below * down + beside * beside * growth;
@@ -189,7 +190,7 @@ impl<S: Simd> Samples<S> {
         const NUMBERS: Lanes = [
             0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0,
         ];
-        let Quadratic { down, lean, growth } = quadratic;
+        let Quadratic { down, lean, growth, .. } = quadratic;
         let below = f32x16::simd_from(simd, NUMBERS) + y as f32 - self.middle[1];
         let rest = (self.reach * self.reach - below * below * down).max(f32x16::splat(simd, 0.0));
         let nearest = below * lean + self.middle[0];

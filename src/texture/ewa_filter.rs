@@ -1,6 +1,8 @@
 //! The elliptical weighted average at samples. The samples of a pixel have ellipses alike that lie close together: the texels
 //! under any of them are looked at once, four of a row or of a column at a time, and weighed for sixteen samples.
 //!
+//! Samples that lie far apart, as where a bias sharpens, share few texels: there each of sixteen reads its own.
+//!
 //! What a sample gets does not depend on those beside it. Places are whole multiples of a small part of a texel, so that all
 //! distances are exact, whatever they are counted from; a texel beyond its rim weighs nothing, and adds nothing.
 
@@ -48,14 +50,17 @@ struct Samples<S: Simd> {
 impl WeighSamples for EwaFilter<'_> {
     #[inline(always)]
     fn channels<S: Simd>(&self, simd: S, places: &Places) -> Option<[f32x16<S>; 4]> {
+        let count = places.count;
         simd.vectorize(
             #[inline(always)]
             || {
-                let samples = Samples::new(simd, self, places)?;
-                Some(if self.is_opaque {
-                    self.channels_by::<S, 3>(simd, &samples)
-                } else {
-                    self.channels_by::<S, 4>(simd, &samples)
+                let places = self.rounded_places(places);
+                let samples = Samples::new(simd, self, &places, count);
+                Some(match (samples, self.is_opaque) {
+                    (Some(samples), true) => self.channels_by::<S, 3>(simd, &samples),
+                    (Some(samples), false) => self.channels_by::<S, 4>(simd, &samples),
+                    (None, true) => self.channels_apart::<S, 3>(simd, &places),
+                    (None, false) => self.channels_apart::<S, 4>(simd, &places),
                 })
             },
         )
@@ -74,7 +79,8 @@ impl EwaFilter<'_> {
 
     fn weights<S: Simd>(&self, simd: S, at: DVec2) -> Vec<([i32; 2], f64)> {
         let mut found = Vec::new();
-        let Some(samples) = Samples::new(simd, self, &Places::one(at)) else {
+        let places = self.rounded_places(&Places::one(at));
+        let Some(samples) = Samples::new(simd, self, &places, 1) else {
             return found;
         };
         let [px, py] = [samples.x, samples.y].map(|lanes| Lanes::from(lanes)[0]);
@@ -92,12 +98,74 @@ impl EwaFilter<'_> {
         found
     }
 
+    /// Places along lines and across them, near the level, rounded to [`PARTS`].
+    #[inline(always)]
+    fn rounded_places(&self, places: &Places) -> [[f64; LANES]; 2] {
+        let mut found = self.line.turned(places.near(self.texels.wrap, self.texels.size()));
+        for at in found.as_flattened_mut() {
+            *at = (*at * PARTS + 0.5).floor() / PARTS;
+        }
+        found
+    }
+
+    /// As [`EwaFilter::channels_by`], of samples that each read the texels around them.
+    #[inline(always)]
+    fn channels_apart<S: Simd, const CHANNELS: usize>(&self, simd: S, places: &[[f64; LANES]; 2]) -> [f32x16<S>; 4] {
+        let quadratic = self.quadratic;
+        let series = quadratic.series.map(|factor| f32x16::splat(simd, factor));
+        let nothing = f32x16::splat(simd, 0.0);
+        let (mut bases, mut parts) = ([[0; LANES]; 2], [[0.0; LANES]; 2]);
+        for i in 0..2 {
+            for lane in 0..LANES {
+                let base = places[i][lane].floor();
+                (bases[i][lane], parts[i][lane]) = (near(narrow(base)), narrow(places[i][lane] - base));
+            }
+        }
+        let [x, y] = parts.map(|lanes| f32x16::simd_from(simd, lanes));
+        let (mut total, mut sums) = (nothing, [nothing; CHANNELS]);
+        let half = quadratic.half_height() + MARGIN;
+        for row in near((-half).floor())..=near((1.0 + half).ceil()) {
+            let below = f32x16::splat(simd, row as f32) - y;
+            let most = quadratic.most - below * below * quadratic.fall;
+            let nearest = (below * quadratic.lean + TO_PARTS) - TO_PARTS;
+            let half = most.max(nothing).sqrt() + MARGIN;
+            let middle = x + nearest;
+            let (left, right) = ((middle - half).reduce_min(), (middle + half).reduce_max());
+            for column in near(left.ceil())..=near(right.floor()) {
+                let beside = f32x16::splat(simd, column as f32) - x - nearest;
+                let weight = weight(simd, series, most - beside * beside);
+                total += weight;
+                let mut texels = self.each_texel(simd, &bases, [column, row]);
+                for sum in &mut sums {
+                    let channel: i32x16<S> = (texels & 0xFF).bitcast();
+                    *sum = weight.mul_add(channel.to_float::<f32x16<S>>(), *sum);
+                    texels >>= 8;
+                }
+            }
+        }
+        rounded(
+            simd,
+            sums,
+            f32x16::splat(simd, f32::from(Premultiplied16::PER_BYTE)) / total,
+        )
+    }
+
+    /// The texels so far from some others.
+    #[inline(always)]
+    fn each_texel<S: Simd>(&self, simd: S, bases: &[[i32; LANES]; 2], [column, row]: [i32; 2]) -> u32x16<S> {
+        let EndlessLevel { level, wrap } = self.texels;
+        let mut found = [0; LANES];
+        for (found, (x, y)) in found.iter_mut().zip(bases[0].iter().zip(&bases[1])) {
+            *found = u32::from_le_bytes(level.wrapped(wrap, self.line.turned([x + column, y + row])));
+        }
+        u32x16::simd_from(simd, found)
+    }
+
     /// As [`WeighSamples::channels`], of which some are not the greatest number.
     #[inline(always)]
     fn channels_by<S: Simd, const CHANNELS: usize>(&self, simd: S, samples: &Samples<S>) -> [f32x16<S>; 4] {
         let quadratic = self.quadratic;
-        let [a, b, c] = quadratic.series.map(|factor| f32x16::splat(simd, factor));
-        let kept = u32x16::splat(simd, KEPT);
+        let series = quadratic.series.map(|factor| f32x16::splat(simd, factor));
         let nothing = f32x16::splat(simd, 0.0);
         let mut total = nothing;
         let mut sums = [nothing; CHANNELS];
@@ -117,9 +185,7 @@ impl EwaFilter<'_> {
                 let mut beside = f32x16::splat(simd, left as f32) - samples.x - nearest;
                 for number in 0..row.blocks {
                     for texel in &row.block(simd, number) {
-                        let within = (most - beside * beside).max(nothing);
-                        let weight = within * (within * (within * (within + c) + b) + a);
-                        let weight: f32x16<S> = (weight.bitcast::<u32x16<S>>() & kept).bitcast();
+                        let weight = weight(simd, series, most - beside * beside);
                         total += weight;
                         for (sum, channel) in sums.iter_mut().zip(texel) {
                             *sum = weight.mul_add(*channel, *sum);
@@ -135,29 +201,31 @@ impl EwaFilter<'_> {
     }
 }
 
+/// See [`Quadratic::weight`].
+#[inline(always)]
+fn weight<S: Simd>(simd: S, [a, b, c]: [f32x16<S>; 3], within: f32x16<S>) -> f32x16<S> {
+    let within = within.max(f32x16::splat(simd, 0.0));
+    let weight = within * (within * (within * (within + c) + b) + a);
+    (weight.bitcast::<u32x16<S>>() & u32x16::splat(simd, KEPT)).bitcast()
+}
+
 impl<S: Simd> Samples<S> {
     /// `None` where they lie too far apart to be weighed together, which one alone does not.
     #[inline(always)]
-    fn new(simd: S, filter: &EwaFilter<'_>, places: &Places) -> Option<Self> {
+    fn new(simd: S, filter: &EwaFilter<'_>, places: &[[f64; LANES]; 2], count: usize) -> Option<Self> {
         /// So many texels from each other.
         const FAR: f32 = 64.0;
         /// As [`Samples::reach`].
         const MOST_REACH: f32 = 2.5;
         let mut base = [0.0; 2];
         let mut lanes = [[0.0; LANES]; 2];
-        let near_level = filter
-            .line
-            .turned(places.near(filter.texels.wrap, filter.texels.size()));
-        for ((base, lanes), mut inside) in base.iter_mut().zip(&mut lanes).zip(near_level) {
-            for at in &mut inside {
-                *at = (*at * PARTS + 0.5).floor() / PARTS;
-            }
-            *base = inside[0].floor();
-            for (lane, at) in lanes.iter_mut().zip(&inside) {
+        for ((base, lanes), places) in base.iter_mut().zip(&mut lanes).zip(places) {
+            *base = places[0].floor();
+            for (lane, at) in lanes.iter_mut().zip(places) {
                 *lane = narrow(at - *base);
             }
         }
-        let last = places.count.clamp(1, LANES) - 1;
+        let last = count.clamp(1, LANES) - 1;
         let middle = lanes.map(|lanes| (lanes[0] + lanes[last]) * 0.5);
         let [x, y] = lanes.map(|lanes| f32x16::simd_from(simd, lanes));
         if x.abs().max(y.abs()).reduce_max() > FAR {
@@ -212,4 +280,52 @@ fn near(at: f32) -> i32 {
 #[expect(clippy::cast_possible_truncation, reason = "a place near a level")]
 fn narrow(at: f64) -> f32 {
     at as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Footprint, MipLevel, MipPyramid, Wrap};
+    use super::*;
+
+    #[test]
+    fn samples_far_apart_are_weighed_as_each_alone() {
+        let texel = |i: u32| {
+            let [a, b, c, ..] = (i.wrapping_mul(0x9E37_79B9) >> 3).to_le_bytes();
+            [a, b, c, 255]
+        };
+        let pyramid = MipPyramid::build(MipLevel::new(40, 24, (0..40 * 24).map(texel).collect()));
+        let steps = [DVec2::new(0.03, 0.01), DVec2::new(-0.02, 0.06)];
+        let footprint = Footprint {
+            dx: steps[0],
+            dy: steps[1],
+        };
+        let (ellipse, _) = super::super::Ellipse::new(&footprint, &pyramid);
+        let (line, quadratic) = ellipse.quadratic();
+        for (wrap, is_opaque) in [(Wrap::Clamp, true), (Wrap::Repeat, false), (Wrap::Mirror, true)] {
+            let filter = EwaFilter {
+                texels: EndlessLevel {
+                    level: &pyramid.levels()[ellipse.level],
+                    wrap,
+                },
+                quadratic,
+                line,
+                is_opaque,
+            };
+            let mut places = Places::one(DVec2::ZERO);
+            places.count = LANES;
+            for lane in 0..LANES {
+                let i = lane as f64;
+                (places.x[lane], places.y[lane]) = (i * 2.9 - 5.3, (i * 7.0) % 23.0 - 2.1);
+            }
+            for (name, level) in simd::tested() {
+                let mut together = [Premultiplied16::TRANSPARENT; LANES];
+                dispatch!(level, simd => filter.colors(simd, &places, &mut together));
+                for (lane, together) in together.iter().enumerate() {
+                    let mut alone = [Premultiplied16::TRANSPARENT];
+                    dispatch!(level, simd => filter.colors(simd, &places.alone(lane), &mut alone));
+                    assert_eq!(alone[0], *together, "{wrap:?}, sample {lane}, {name}");
+                }
+            }
+        }
+    }
 }

@@ -59,6 +59,10 @@ impl Wrap {
     /// The texel that stands at a place, of a row or a column of `side` texels.
     pub(super) fn texel(self, at: i32, side: u32) -> i32 {
         let side = side.cast_signed();
+        if (0..side).contains(&at) {
+            // So it is mostly, and without a division.
+            return at;
+        }
         match self {
             Self::Clamp => at.clamp(0, side - 1),
             Self::Repeat => at.rem_euclid(side),

@@ -155,6 +155,10 @@ fn note_inside<S: Simd>(
             cells.note(simd, plan.pixel, level, SampleVector { at: [x, y], first });
         }
     }
+    if !are_inside {
+        // Those of later blocks that are not filled are read, too.
+        *cells = [sample_filter::Cells::EMPTY; 2];
+    }
     are_inside
 }
 
@@ -299,7 +303,10 @@ impl Cells {
     #[inline(always)]
     fn inside<S: Simd, const SIDE: usize>(&self, simd: S, spread: Spread<S>, level: &MipLevel, i: usize) -> i32x8<S> {
         let i = i % BLOCK;
-        let rows = rows::<S, SIDE>(simd, level, self.offsets[i].cast_unsigned() as usize);
+        // Samples that fill up the last four of a list are those of an earlier block, perhaps beyond the level; what they get is
+        // dropped.
+        let offset = self.offsets[i].max(0).cast_unsigned() as usize;
+        let rows = rows::<S, SIDE>(simd, level, offset);
         self.weighed::<S, SIDE>(simd, spread, rows, i)
     }
 

@@ -11,7 +11,7 @@ use crate::color::{Light, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
-use crate::raster::paint::visibility::paint_stack::SurfaceShader;
+use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
 use crate::simd;

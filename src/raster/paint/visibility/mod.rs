@@ -18,5 +18,6 @@ mod resolve_by_samples;
 mod sample_colors;
 pub(in crate::raster) mod shading_queue;
 pub(in crate::raster) mod surface_color;
+mod surface_shader;
 pub(in crate::raster) mod surfaces;
 pub(in crate::raster) mod two_surfaces;

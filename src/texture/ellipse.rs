@@ -25,7 +25,7 @@ const LONGEST: f64 = 2.0 * SHORTEST * MOST_ECCENTRIC;
 /// What to multiply the powers of `e = 1 - q` by, from the first on, for their sum to be `exp(-2 q) - exp(-2)`: by Chebyshev
 /// interpolation of what is left of it when `e` is divided by; it errs by less than 0.001.
 const SERIES: [f64; 4] = [0.270_098_33, 0.288_809_73, 0.094_357_716, 0.210_595_3];
-/// Adding and subtracting this rounds to [`Quadratic::nearest`]'s multiples; of numbers below 512.
+/// Adding and subtracting this rounds numbers below 512 to the parts of a texel by which [`Quadratic::within`] goes.
 pub(super) const TO_PARTS: f32 = 1536.0;
 /// The bits of a 32-bit float that weights keep: 16 of the fraction's 24 with the first one, which is not stored.
 pub(super) const KEPT: u32 = 0xFFFF_FF00;

@@ -51,6 +51,8 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     lines.extend(overlay_words(viewer));
     if entry.is_reading() {
         lines.push("reading …".to_owned());
+    } else if let Some(text) = viewer.frames().waiting_text() {
+        lines.push(text.to_owned());
     }
     let text = lines.join("\n");
     let galley = ui.painter().layout(
@@ -118,8 +120,12 @@ pub(super) fn shows_other_than_set(viewer: &Viewer) -> bool {
     ab.shows_b() && matches!(ab.other(), Some(Other::Truth(_) | Other::Picture(_)))
 }
 
-/// A thin bar along the picture's upper edge: how far a refinement is that takes long.
+/// A thin bar along the picture's upper edge: how far a refinement is that takes long. Nothing but the clock tells when a scene takes
+/// long.
 pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
+    if let Some(wait) = viewer.frames().wait_is_told_in().filter(|wait| !wait.is_zero()) {
+        ui.ctx().request_repaint_after(wait);
+    }
     let Some(done) = viewer.frames().long_refinement() else {
         return;
     };

@@ -11,7 +11,7 @@
 #[cfg(test)]
 mod surface_tests;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use std::io;
 use std::sync::Arc;
@@ -161,6 +161,15 @@ impl Drawing {
         let Some(wanted) = &self.wanted else { return true };
         let arrived = |frame: &Frame| frame.picture.is_seen_as(&wanted.picture);
         self.frame().is_some_and(arrived) || self.failed.as_ref() == Some(&wanted.picture)
+    }
+
+    /// Since when a scene has been wanted of which nothing is on the screen yet: there is no picture, or another scene's.
+    pub(in crate::viewer) fn awaited_since(&self) -> Option<Instant> {
+        let wanted = self.wanted.as_ref().filter(|_| !self.has_failed())?;
+        let is_seen = self
+            .frame()
+            .is_some_and(|frame| Arc::ptr_eq(&frame.picture.scene, &wanted.picture.scene));
+        (!is_seen).then_some(wanted.since)
     }
 
     /// What is wanted.

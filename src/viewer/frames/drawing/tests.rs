@@ -16,8 +16,8 @@ pub(super) const SIZE: [u32; 2] = [150, 130];
 pub(super) const SLOW_FRAME: Duration = Duration::from_millis(200);
 
 /// Drawing, and the thread's messages.
-pub(super) struct Desk {
-    pub(super) drawing: Drawing,
+pub(in crate::viewer::frames) struct Desk {
+    pub(in crate::viewer::frames) drawing: Drawing,
     pub(super) messages: Receiver<Drawn>,
     scene: Arc<Scene>,
 }
@@ -65,7 +65,7 @@ fn shaded() -> Arc<Scene> {
 }
 
 impl Desk {
-    pub(super) fn new() -> Self {
+    pub(in crate::viewer::frames) fn new() -> Self {
         let (sender, messages) = channel();
         let drawing = Drawing::start(Mailbox::new(sender, Arc::new(|| {})), DrawingId::First).expect("a thread");
         let scene = scene();
@@ -76,7 +76,7 @@ impl Desk {
         }
     }
 
-    pub(super) fn picture(&self, rate: u32, center: [f64; 2], scale: f64) -> Picture {
+    pub(in crate::viewer::frames) fn picture(&self, rate: u32, center: [f64; 2], scale: f64) -> Picture {
         let view = View::At {
             center: center.into(),
             scale,
@@ -94,7 +94,7 @@ impl Desk {
         }
     }
 
-    pub(super) fn want(&mut self, picture: &Picture) {
+    pub(in crate::viewer::frames) fn want(&mut self, picture: &Picture) {
         self.drawing.want(FrameRequest::new(picture.clone(), [20, 30], None));
     }
 
@@ -114,7 +114,7 @@ impl Desk {
     }
 
     /// Takes in messages until the thread has nothing more to do; the hand does not rest meanwhile, however long it takes.
-    pub(super) fn work(&mut self) {
+    pub(in crate::viewer::frames) fn work(&mut self) {
         while self.drawing.running.is_some() {
             // Nobody draws on surfaces meanwhile.
             self.drawing.wait_no_longer();
@@ -128,6 +128,17 @@ impl Desk {
 
     pub(super) fn take_in(&mut self, drawn: Drawn) {
         self.drawing.finished(drawn);
+    }
+
+    /// Wants the same picture of another scene, as if that had been twice [`SLOW_FRAME`] ago.
+    pub(in crate::viewer::frames) fn want_another_scene(&mut self) {
+        let picture = Picture {
+            scene: scene(),
+            ..self.picture(4, [50.0, 50.0], 1.0)
+        };
+        self.want(&picture);
+        let wanted = self.drawing.wanted.as_mut().expect("a wish");
+        wanted.since = wanted.since.checked_sub(SLOW_FRAME * 2).expect("a clock that runs");
     }
 
     /// Lets the hand rest, and takes in what comes of it.
@@ -170,6 +181,30 @@ fn first_picture_comes_final() {
     desk.want(&picture);
     desk.work();
     desk.shows_final(&picture, "without rest");
+}
+
+#[test]
+fn scene_is_awaited_until_something_of_it_is_seen() {
+    let mut desk = Desk::new();
+    let first = desk.picture(4, [50.0, 50.0], 1.0);
+    assert_eq!(desk.drawing.awaited_since(), None, "nothing is wanted");
+    desk.want(&first);
+    assert!(desk.drawing.awaited_since().is_some(), "there is no picture");
+    desk.work();
+    assert_eq!(desk.drawing.awaited_since(), None, "it is seen");
+    let settings = RenderSettings {
+        sample_rate: SampleRate::new(9).expect("a rate"),
+        ..first.settings
+    };
+    desk.want(&Picture {
+        settings,
+        ..first.clone()
+    });
+    assert_eq!(desk.drawing.awaited_since(), None, "the same scene with other settings");
+    desk.want_another_scene();
+    assert!(desk.drawing.awaited_since().is_some(), "another scene");
+    desk.work();
+    assert_eq!(desk.drawing.awaited_since(), None, "it is seen, too");
 }
 
 #[test]

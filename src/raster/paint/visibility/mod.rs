@@ -1,7 +1,8 @@
 //! Deferred shading: first which surface each sample of a tile shows, then each surface's colour, once per pixel.
 //!
 //! The [`buffer`] holds surface ids, [`packed`] four to a word; [`two_surfaces`] compresses a pixel of two surfaces as
-//! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
+//! GPUs do with an FMASK; [`paint_stack`] keeps what is painted over shaded primitives where each sample is rounded for itself, since
+//! no sum tells that; [`flat_resolve`] averages surfaces of one colour without shading.
 //! [`sample_colors`] tells the colour of each sample instead, for resolve filters that reach beyond a pixel.
 
 pub(in crate::raster) mod buffer;

@@ -49,7 +49,7 @@ impl<'a> PaintStacks<'a> {
         self.all.clear();
     }
 
-    /// Whether no command more may be painted.
+    /// Whether there is no room for what another command paints.
     pub(crate) fn is_full(&self) -> bool {
         self.all.len() >= MOST
     }

@@ -4,17 +4,17 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use crate::color::Premultiplied16;
-use crate::raster::binning::tile_command::Work;
+use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::binning::visible::{EntryIndex, first_visible, visible};
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::display_list::{DisplayList, Pass};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::frame::row::FrameRow;
 use crate::raster::paint::direct::DirectPainter;
-use crate::raster::paint::method::Method;
+use crate::raster::paint::method::{Method, Rounding};
 use crate::raster::paint::per_sample::PerSamplePainter;
-use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::span::Span;
+use crate::raster::paint::visibility::painter::{Crowds, VisibilityPainter};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::stats::Tally;
 
 /// One tile of so many is timed.
@@ -155,8 +155,7 @@ impl DisplayList<'_> {
         let painted = self.context.tiles.painted(block.rect);
         let mut method = self.method(pass, tile, first);
         if let Method::Visibility(rounding) = method {
-            painters.visibility.begin(painted, background, rounding);
-            if !self.paint_surfaces(pass, painters, tile, first) {
+            if !self.paint_surfaces(painters, &visible(&pass.bins, tile, first), painted, rounding) {
                 method = Method::PerSample;
             }
         }
@@ -208,20 +207,37 @@ impl DisplayList<'_> {
         }
     }
 
-    /// Finds the surfaces that the samples of a tile show, of the commands from `first` on; whether there was room for all of them.
-    fn paint_surfaces<'s>(
+    /// Finds the surfaces that the samples of the tile `painted` show under these commands, chunk by chunk; false where they are
+    /// better blended one by one.
+    fn paint_surfaces<'s, 'c>(
         &'s self,
-        pass: &Pass<'_>,
         painters: &mut Painters<'s>,
-        tile: usize,
-        first: EntryIndex,
+        commands: &(impl Iterator<Item = (usize, &'c [TileCommand])> + Clone),
+        painted: SpanRect,
+        rounding: Rounding,
     ) -> bool {
-        let mut commands = visible(&pass.bins, tile, first);
-        commands.all(|(chunk, entries)| {
-            painters
-                .visibility
-                .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage)
-        })
+        let mut paint = |crowds| {
+            let Painters {
+                visibility,
+                shape_coverage,
+                ..
+            } = &mut *painters;
+            visibility.begin(painted, self.background(), (rounding, crowds));
+            let mut commands = commands.clone();
+            commands.all(|(chunk, entries)| visibility.paint(&self.chunks[chunk], entries, shape_coverage))
+        };
+        if paint(Crowds::GivenUp) {
+            return true;
+        }
+        let is_flat = || {
+            let mut commands = commands.clone();
+            commands.all(|(chunk, entries)| {
+                let mut work = entries.iter().map(|entry| entry.work(&self.chunks[chunk]));
+                work.all(|work| !matches!(work, Work::Shaded(..)))
+            })
+        };
+        // Sums of flat colours are those of the samples; of those of what is shaded no other method gives the same bytes.
+        rounding == Rounding::Sums && !is_flat() && paint(Crowds::Painted)
     }
 }
 

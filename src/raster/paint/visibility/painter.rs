@@ -29,6 +29,18 @@ use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::simd;
 
+/// What becomes of a tile in which there are nearly as many surfaces as samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Crowds {
+    /// Samples are better blended one by one.
+    GivenUp,
+    /// It is painted: no other method gives the same bytes.
+    Painted,
+}
+
+/// So many surfaces in use, a fair part of a tile's samples, are more than one for each pixel.
+const CROWD: usize = MAX_SURFACES / 8;
+
 /// Paints tiles, one after the other, reusing its memory. Where sums of samples are shaded, only opaque primitives are.
 #[derive(Debug)]
 pub(crate) struct VisibilityPainter<'a> {
@@ -42,6 +54,7 @@ pub(crate) struct VisibilityPainter<'a> {
     pub(super) values: Vec<u32>,
     pub(super) by_samples: BySamples,
     pub(super) rounding: Rounding,
+    crowds: Crowds,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
 }
@@ -61,20 +74,28 @@ impl<'a> VisibilityPainter<'a> {
             values: Vec::new(),
             by_samples: BySamples::new(&context, positions),
             rounding: Rounding::Sums,
+            crowds: Crowds::GivenUp,
             samples_shaded: 0,
         }
     }
 
-    /// Starts a tile, for which `rounding` says what is rounded of what is shaded.
-    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16, rounding: Rounding) {
+    /// Starts a tile, for which `rounding` says what is rounded of what is shaded, and `crowds` what becomes of it where surfaces do
+    /// not pay.
+    pub(crate) fn begin(
+        &mut self,
+        rect: SpanRect,
+        background: Premultiplied16,
+        (rounding, crowds): (Rounding, Crowds),
+    ) {
         self.rounding = rounding;
+        self.crowds = crowds;
         self.surfaces.clear(rounding);
         let surface = self.surfaces.flat(background);
         self.layers.restart().reset(rect, surface);
     }
 
-    /// Paints the commands of one chunk that touch the tile; false, and the tile is of no use, where too many translucent paints lie
-    /// on top of each other.
+    /// Paints the commands of one chunk that touch the tile; false, and the tile is of no use, where there are too many surfaces, or
+    /// translucent paints on top of each other.
     #[must_use]
     pub(crate) fn paint(
         &mut self,
@@ -83,8 +104,13 @@ impl<'a> VisibilityPainter<'a> {
         shape_coverage: &mut ShapeCoverage,
     ) -> bool {
         for entry in entries {
-            self.make_room();
-            if self.surfaces.is_overfull() {
+            if self.surfaces.is_full() {
+                self.make_room();
+                if self.crowds == Crowds::GivenUp && self.surfaces.len() > CROWD {
+                    return false;
+                }
+            }
+            if self.surfaces.has_too_many_paints() {
                 return false;
             }
             match entry.work(chunk) {
@@ -168,11 +194,7 @@ impl<'a> VisibilityPainter<'a> {
 
     /// Makes sure that every surface may be mixed with the next paint. There are twice as many numbers as samples in a
     /// tile and its layers, so that some are out of use when all are given away.
-    #[inline]
     fn make_room(&mut self) {
-        if !self.surfaces.is_full() {
-            return;
-        }
         let mut used = vec![false; MAX_SURFACES];
         let layers = self.layers.in_use();
         for layer in &*layers {
@@ -345,7 +367,9 @@ mod tests {
                 let rect = tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE);
                 let (width, height) = (rect.x.length(), rect.y.length());
                 let mut found = vec![0x1234_5678; width * height];
-                painters.visibility.begin(rect, list.background(), rounding);
+                painters
+                    .visibility
+                    .begin(rect, list.background(), (rounding, Crowds::GivenUp));
                 let is_painted = painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
                 assert!(is_painted, "not so many");
                 painters
@@ -394,13 +418,80 @@ mod tests {
             let (commands, chunk) = (pass.bins[0].of_tile(0), &list.chunks[0]);
             let rect = context.tiles.pixels(0, 0, size);
             let mut painters = list.painters();
-            painters.visibility.begin(rect, list.background(), Rounding::Samples);
+            painters
+                .visibility
+                .begin(rect, list.background(), (Rounding::Samples, Crowds::GivenUp));
             let is_painted = painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
             assert_eq!(is_painted, fits, "{veils} veils");
             let expected = blended(&mut painters, &list, (chunk, commands), rect);
             let mut frame = Framebuffer::new(size[0], size[1]);
             list.rasterize(&mut frame, &cancelled).expect("not cancelled");
             assert_eq!(frame.pixels(), expected, "{veils} veils");
+        }
+    }
+
+    #[test]
+    fn a_crowd_of_surfaces_is_given_up_where_bytes_allow() {
+        let settings = RasterSettings {
+            rate: SampleRate::new(16).expect("a square number"),
+            ..settings()
+        };
+        for (pattern, ground) in [
+            (SamplePattern::Grid, Paint::solid(Rgba::WHITE)),
+            (SamplePattern::Jittered, Paint::solid(Rgba::WHITE)),
+            (
+                SamplePattern::Grid,
+                Paint::vertex([Rgba::WHITE, Rgba::BLACK, Rgba::WHITE]),
+            ),
+        ] {
+            let settings = RasterSettings { pattern, ..settings };
+            let context = ListContext::new(SIZE, &settings);
+            let mut random =
+                (1_u32..).map(|i| f32::from(u16::try_from(i.wrapping_mul(0x9E37_79B9) >> 16).unwrap_or(0)) / 65536.0);
+            let mut builder = ChunkBuilder::new(&context, 400);
+            let all = [DVec2::new(-9.0, -9.0), DVec2::new(300.0, 0.0), DVec2::new(0.0, 300.0)];
+            builder.triangle(all, &ground);
+            for _ in 0..399 {
+                let corners = [(); 3].map(|()| {
+                    let [x, y] = [(); 2].map(|()| f64::from(random.next().unwrap_or(0.0)));
+                    DVec2::new(x * 120.0 - 30.0, y * 100.0 - 30.0)
+                });
+                let veil = Rgba {
+                    a: 0.1,
+                    ..Rgba::opaque(0.2, random.next().unwrap_or(0.0), 0.9)
+                };
+                builder.triangle(corners, &Paint::solid(veil));
+            }
+            let list = DisplayList::new(context, settings, vec![builder.finish()], Vec::new().into());
+            let cancelled = AtomicBool::new(false);
+            let pass = list.pass(&list.plan(), Span { start: 0, end: 1 }, &cancelled);
+            let (commands, chunk) = (pass.bins[0].of_tile(0), &list.chunks[0]);
+            let rect = context.tiles.pixels(0, 0, SIZE);
+            let mut painters = list.painters();
+            let mut paint = |crowds| {
+                let Painters {
+                    visibility,
+                    shape_coverage,
+                    ..
+                } = &mut painters;
+                visibility.begin(rect, list.background(), (Rounding::Sums, crowds));
+                visibility.paint(chunk, commands, shape_coverage)
+            };
+            assert!(!paint(Crowds::GivenUp), "{pattern:?}: nearly every sample is its own");
+            assert!(paint(Crowds::Painted), "{pattern:?}");
+            let width = rect.x.length();
+            let mut of_surfaces = vec![0; width * rect.y.length()];
+            painters
+                .visibility
+                .resolve(&mut PixelBlock::new(rect, &mut of_surfaces, width), false);
+            let mut found = vec![0; width * rect.y.length()];
+            let block = &mut PixelBlock::new(rect, &mut found, width);
+            list.numbered_tile(&pass, &mut painters, 0, block);
+            assert_eq!(found, of_surfaces, "{pattern:?}");
+            if ground.constant().is_some() {
+                let blended = blended(&mut painters, &list, (chunk, commands), rect);
+                assert_eq!(found, blended, "{pattern:?}");
+            }
         }
     }
 }

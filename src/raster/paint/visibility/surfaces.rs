@@ -77,7 +77,7 @@ impl<'a> SurfaceTable<'a> {
     }
 
     /// Whether more lies on top of each other than there is room for: nothing may be painted then.
-    pub(crate) fn is_overfull(&self) -> bool {
+    pub(crate) fn has_too_many_paints(&self) -> bool {
         self.stacks.is_full()
     }
 

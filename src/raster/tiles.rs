@@ -154,10 +154,10 @@ impl DisplayList<'_> {
         let mut resolving = None;
         let painted = self.context.tiles.painted(block.rect);
         let mut method = self.method(pass, tile, first);
-        if let Method::Visibility(rounding) = method {
-            if !self.paint_surfaces(painters, &visible(&pass.bins, tile, first), painted, rounding) {
-                method = Method::PerSample;
-            }
+        if let Method::Visibility(rounding) = method
+            && !self.paint_surfaces(painters, &visible(&pass.bins, tile, first), painted, rounding)
+        {
+            method = Method::PerSample;
         }
         match method {
             Method::Direct => {

@@ -22,7 +22,7 @@
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x8, u32x16, u64x2, u64x8};
+use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x8, u32x16, u64x2};
 
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::frame::block::PixelBlock;
@@ -34,6 +34,7 @@ use crate::simd;
 
 /// By how much numbers are moved, so that they fit 16 bits with a sign.
 const MOVED: u16 = 1 << 15;
+const MOVED_WORD: u64 = 0x8000_8000_8000_8000;
 /// Rows and columns of samples that are summed up together.
 const BLOCK: usize = 4;
 /// The most of these along the side of a pixel: weights of more columns add up to too much.
@@ -56,11 +57,13 @@ pub(super) struct DotSums {
     columns: Vec<[[i16; 2 * BLOCK]; 2]>,
     /// For each block of rows what they weigh, in the order of `halves`.
     rows: Vec<[i16; AT_ONCE]>,
-    /// What the columns of each pixel around one weigh together.
-    of_pixels: Vec<i32>,
+    /// What the columns of pixels around one weigh together, two pixels side by side: which of them the left one is, and both, once
+    /// for each channel.
+    of_pixels: Vec<(usize, [i16; 2 * BLOCK])>,
     mean: Mean,
-    /// The row of pixels at work: channels of those that show one colour, moved, and nothing for others.
-    whole: Vec<[i32; 4]>,
+    /// The row of pixels at work: those that show one colour, moved, and nothing for others; then each beside the next one.
+    whole: Vec<u64>,
+    pairs: Vec<[i16; 2 * BLOCK]>,
     /// For each pixel of the tile, block by block, the sums of its rows of samples: four channels each.
     sums: Vec<[i32; 4 * BLOCK]>,
     /// The same of the last rows of pixels, each in the place of the one that is no longer needed: first the lower halves, of the
@@ -112,9 +115,10 @@ impl DotSums {
                 .map(|[a, b, c, d]| [[a, b], [c, d]].map(repeated))
                 .collect(),
             rows: blocks.map(|[a, b, c, d]| halves_weights([a, b, c, d])).collect(),
-            of_pixels: of_pixels.map(|columns| columns.iter().sum()).collect(),
+            of_pixels: weights_of_pairs(&of_pixels.map(|columns| columns.iter().sum()).collect::<Vec<_>>()),
             mean: Mean::new(all.iter().map(|weight| i64::from(*weight)).sum(), rules),
             whole: Vec::new(),
+            pairs: Vec::new(),
             sums: Vec::new(),
             halves: Vec::new(),
             width: 0,
@@ -129,7 +133,8 @@ impl DotSums {
     /// Resolves the pixels of a tile that are not flat.
     pub(super) fn resolve(&mut self, colors: &SampleColors, flat: &FlatPixels, block: &mut PixelBlock<'_>) {
         let around = 2 * self.margin + 1;
-        self.whole.resize(colors.width() + TOGETHER, [0; 4]);
+        self.whole.resize(colors.width() + 1, 0);
+        self.pairs.resize(colors.width() + TOGETHER, [0; 2 * BLOCK]);
         self.width = flat.width();
         self.sums.resize((self.width + TOGETHER) * self.blocks, [0; 4 * BLOCK]);
         self.halves
@@ -175,9 +180,14 @@ impl DotSums {
                 let (shown, split) = colors.row(y);
                 let seen = shown[read.clone()].iter().zip(&split[read.clone()]);
                 for (whole, (color, split)) in self.whole[read.clone()].iter_mut().zip(seen) {
-                    let kept = i32::from(*split) - 1;
-                    let Premultiplied16([r, g, b, a]) = *color;
-                    *whole = [moved(r) & kept, moved(g) & kept, moved(b) & kept, moved(a) & kept];
+                    let kept = u64::from(*split).wrapping_sub(1);
+                    *whole = (color.to_word() ^ MOVED_WORD) & kept;
+                }
+                for (pair, whole) in self.pairs[read.clone()]
+                    .iter_mut()
+                    .zip(self.whole[read.start..].windows(2))
+                {
+                    *pair = beside(simd, [whole[0], whole[1]]).to_array();
                 }
                 self.add_whole::<S, BLOCKS>(simd, pixels.clone());
                 for x in read.filter(|x| split[*x]) {
@@ -199,9 +209,10 @@ impl DotSums {
     fn add_whole<S: Simd, const BLOCKS: usize>(&mut self, simd: S, pixels: Range<usize>) {
         for start in pixels.step_by(TOGETHER) {
             let mut sum = i32x16::splat(simd, 0);
-            for (beside, weight) in self.of_pixels.iter().enumerate() {
-                if let Some(numbers) = self.whole[start + beside..].as_flattened().first_chunk::<16>() {
-                    sum += i32x16::simd_from(simd, *numbers) * *weight;
+            for (beside, weights) in &self.of_pixels {
+                if let Some(numbers) = self.pairs[start + beside..].as_flattened().first_chunk::<AT_ONCE>() {
+                    let weights = i16x32::block_splat(i16x8::simd_from(simd, *weights));
+                    sum += i16x32::simd_from(simd, *numbers).pairwise_dot_product(weights);
                 }
             }
             let sums = sum.to_array();
@@ -265,13 +276,10 @@ impl DotSums {
                         }
                         at = if at + 1 == around { 0 } else { at + 1 };
                     }
-                    let mut found = [0; TOGETHER];
-                    for (pixels, sums) in found.as_chunks_mut().0.iter_mut().zip(sums.as_chunks().0) {
-                        *pixels = self.mean.pixels(simd, both_halves(simd, *sums), self.rules);
-                    }
-                    for (pixel, found) in line[start..pixels.end].iter_mut().zip(found) {
-                        *pixel = found;
-                    }
+                    let [a, b, c, d] = sums;
+                    let sums = [[a, b], [c, d]].map(|sums| both_halves(simd, sums));
+                    let end = pixels.end.min(start + TOGETHER);
+                    self.mean.put(simd, sums, &mut line[start..end], self.rules);
                 }
             },
         );
@@ -299,26 +307,39 @@ impl Mean {
         }
     }
 
-    /// Two pixels for the sums of their numbers, which were moved.
+    /// The first pixels of these, for the sums of their numbers, which were moved.
     #[inline(always)]
-    fn pixels<S: Simd>(&self, simd: S, sums: f64x8<S>, rules: Rules) -> [u32; 2] {
+    fn put<S: Simd>(&self, simd: S, sums: [f64x8<S>; 2], pixels: &mut [u32], rules: Rules) {
         // Whole numbers below it are the lowest bits of what they make with it.
         const WHOLE: f64 = (1_u64 << 52) as f64;
-        let sums = sums + self.moved;
+        const NONE: f64 = f64::NEG_INFINITY;
         let full = f64x8::splat(simd, self.one);
-        let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
-        let bits: u64x8<S> = (levels.floor() + WHOLE).bitcast();
-        let (sums, levels) = (sums.to_array(), bits.to_array());
-        let mut pixels = [0; 2];
-        for ((pixel, sum), levels) in pixels.iter_mut().zip(sums.as_chunks().0).zip(levels.as_chunks().0) {
-            let [r, g, b, _]: [u64; 4] = *levels;
-            *pixel = if sum[3] < self.one {
-                self.translucent(*sum, rules)
-            } else {
-                0xFF00_0000 | lowest(r) << 16 | lowest(g) << 8 | lowest(b)
-            };
+        let places = f64x8::simd_from(simd, [65536.0, 256.0, 1.0, 0.0, 65536.0, 256.0, 1.0, 0.0]);
+        let sums = sums.map(|sums| sums + self.moved);
+        let [first, second] = sums.map(|sums| {
+            let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
+            levels.floor() * places
+        });
+        let joined = |sums: f64x8<S>| {
+            let (left, right) = sums.split();
+            let (left, right) = (left + right).split();
+            (left + right + WHOLE).bitcast::<u64x2<S>>().to_array()
+        };
+        let [even, odd] = [joined(first.zip_low(second)), joined(first.zip_high(second))];
+        let found = [even[0], odd[0], even[1], odd[1]];
+        for (pixel, found) in pixels.iter_mut().zip(found) {
+            *pixel = 0xFF00_0000 | lowest(found);
         }
-        pixels
+        let opaque = [NONE, NONE, NONE, self.one, NONE, NONE, NONE, self.one];
+        let opaque = f64x8::simd_from(simd, opaque);
+        if sums.iter().any(|sums| sums.simd_lt(opaque).any_true()) {
+            let sums = sums.map(f64x8::to_array);
+            for (pixel, sum) in pixels.iter_mut().zip(sums.as_flattened().as_chunks().0) {
+                if sum[3] < self.one {
+                    *pixel = self.translucent(*sum, rules);
+                }
+            }
+        }
     }
 
     /// The same of what is not opaque.
@@ -331,6 +352,26 @@ impl Mean {
         };
         ResolveSpace::Stored.weighted_pixel(sum, rules)
     }
+}
+
+/// What pixels side by side weigh, in pairs. Those that weigh more than fits are taken twice.
+fn weights_of_pairs(of_pixels: &[i32]) -> Vec<(usize, [i16; 2 * BLOCK])> {
+    let mut rest = of_pixels.to_vec();
+    let mut all = Vec::new();
+    while rest.iter().any(|weight| *weight != 0) {
+        for (number, pair) in rest.chunks_mut(2).enumerate() {
+            let mut taken = [0; 2];
+            for (taken, weight) in taken.iter_mut().zip(pair) {
+                let fits = (*weight).clamp(i16::MIN.into(), i16::MAX.into());
+                *taken = i16::try_from(fits).unwrap_or(0);
+                *weight -= fits;
+            }
+            if taken != [0; 2] {
+                all.push((2 * number, repeated(taken)));
+            }
+        }
+    }
+    all
 }
 
 /// The weights of two columns, once for each channel.
@@ -371,7 +412,13 @@ fn columns<S: Simd>(simd: S, block: &[Premultiplied16; BLOCK * BLOCK], column: u
 /// A sample of a block and the next one, channel by channel.
 #[inline(always)]
 fn pair<S: Simd>(simd: S, block: &[Premultiplied16; BLOCK * BLOCK], first: usize) -> i16x8<S> {
-    let both: i16x8<S> = u64x2::simd_from(simd, [block[first].to_word(), block[first + 1].to_word()]).bitcast();
+    beside(simd, [block[first].to_word(), block[first + 1].to_word()])
+}
+
+/// Two colours side by side, channel by channel.
+#[inline(always)]
+fn beside<S: Simd>(simd: S, words: [u64; 2]) -> i16x8<S> {
+    let both: i16x8<S> = u64x2::simd_from(simd, words).bitcast();
     both.zip_low(both.slide::<4>(both))
 }
 
@@ -403,12 +450,6 @@ fn floats<S: Simd>(simd: S, numbers: i32x8<S>) -> f64x8<S> {
     words.bitcast::<f64x8<S>>() - (WHOLE + f64::from(SIGN))
 }
 
-/// A stored channel below zero by half its range.
-#[inline(always)]
-fn moved(channel: u16) -> i32 {
-    i32::from(channel) - i32::from(MOVED)
-}
-
 /// A block of a pixel of `side x side` samples; beyond its last row and column what is nothing once it is moved.
 #[inline(always)]
 fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> [Premultiplied16; BLOCK * BLOCK] {
@@ -422,11 +463,11 @@ fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> 
     block
 }
 
-/// The lowest byte.
+/// The lowest 24 bits.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
 fn lowest(word: u64) -> u32 {
-    u32::from(word as u8)
+    word as u32 & 0x00FF_FFFF
 }
 
 #[cfg(test)]
@@ -556,13 +597,14 @@ mod tests {
                         weight: total,
                     };
                     let moved = exact.channels.map(|channel| channel as f64 - mean.moved);
-                    let found = dispatch!(simd::level(), simd => {
+                    let mut found = [0; 3];
+                    dispatch!(simd::level(), simd => {
                         let two = f64x8::from_slice(simd, [moved, moved].as_flattened());
-                        mean.pixels(simd, two, rules)
+                        mean.put(simd, [two, two], &mut found, rules);
                     });
                     assert_eq!(
                         found,
-                        [ResolveSpace::Stored.weighted_pixel(exact, rules); 2],
+                        [ResolveSpace::Stored.weighted_pixel(exact, rules); 3],
                         "level {level}, {beside} beside, {rules:?}"
                     );
                 }

@@ -128,16 +128,14 @@ impl WideResolve {
     fn put_flat(&self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
         let margin = self.samples.weights.margin().cast_unsigned() as usize;
         let width = self.flat.width();
-        let mut last = (Premultiplied16::TRANSPARENT, 0);
         for (y, row) in (0..).zip(block.rect.y.start..block.rect.y.end) {
             let (whole, _) = colors.row(y + margin);
             let (whole, line) = (&whole[margin..][..width], block.line(row));
             for run in self.flat.mixed(y).others(width).runs() {
-                for (color, pixel) in whole[run.clone()].iter().zip(&mut line[run]) {
-                    if *color != last.0 {
-                        last = (*color, color.to_pixel(self.rules));
-                    }
-                    *pixel = last.1;
+                // Those of a run are among each other's neighbours, and so of one colour, where a pixel has any.
+                let alike = if margin == 0 { 1 } else { run.len() };
+                for (colors, pixels) in whole[run.clone()].chunks(alike).zip(line[run].chunks_mut(alike)) {
+                    pixels.fill(colors[0].to_pixel(self.rules));
                 }
             }
         }

@@ -277,7 +277,7 @@ impl DotSums {
                         at = if at + 1 == around { 0 } else { at + 1 };
                     }
                     let [a, b, c, d] = sums;
-                    let sums = [[a, b], [c, d]].map(|sums| both_halves(simd, sums));
+                    let sums = [both_halves(simd, [a, b]), both_halves(simd, [c, d])];
                     let end = pixels.end.min(start + TOGETHER);
                     self.mean.put(simd, sums, &mut line[start..end], self.rules);
                 }
@@ -309,37 +309,34 @@ impl Mean {
 
     /// The first pixels of these, for the sums of their numbers, which were moved.
     #[inline(always)]
-    fn put<S: Simd>(&self, simd: S, sums: [f64x8<S>; 2], pixels: &mut [u32], rules: Rules) {
-        // Whole numbers below it are the lowest bits of what they make with it.
-        const WHOLE: f64 = (1_u64 << 52) as f64;
+    fn put<S: Simd>(&self, simd: S, [first, second]: [f64x8<S>; 2], pixels: &mut [u32], rules: Rules) {
         const NONE: f64 = f64::NEG_INFINITY;
-        let full = f64x8::splat(simd, self.one);
-        let places = f64x8::simd_from(simd, [65536.0, 256.0, 1.0, 0.0, 65536.0, 256.0, 1.0, 0.0]);
-        let sums = sums.map(|sums| sums + self.moved);
-        let [first, second] = sums.map(|sums| {
-            let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
-            levels.floor() * places
-        });
-        let joined = |sums: f64x8<S>| {
-            let (left, right) = sums.split();
-            let (left, right) = (left + right).split();
-            (left + right + WHOLE).bitcast::<u64x2<S>>().to_array()
-        };
-        let [even, odd] = [joined(first.zip_low(second)), joined(first.zip_high(second))];
+        let sums = [first + self.moved, second + self.moved];
+        let [first, second] = [self.in_places(simd, sums[0]), self.in_places(simd, sums[1])];
+        let [even, odd] = [both_words(first.zip_low(second)), both_words(first.zip_high(second))];
         let found = [even[0], odd[0], even[1], odd[1]];
         for (pixel, found) in pixels.iter_mut().zip(found) {
             *pixel = 0xFF00_0000 | lowest(found);
         }
         let opaque = [NONE, NONE, NONE, self.one, NONE, NONE, NONE, self.one];
         let opaque = f64x8::simd_from(simd, opaque);
-        if sums.iter().any(|sums| sums.simd_lt(opaque).any_true()) {
-            let sums = sums.map(f64x8::to_array);
+        if (sums[0].simd_lt(opaque) | sums[1].simd_lt(opaque)).any_true() {
+            let sums = [sums[0].to_array(), sums[1].to_array()];
             for (pixel, sum) in pixels.iter_mut().zip(sums.as_flattened().as_chunks().0) {
                 if sum[3] < self.one {
                     *pixel = self.translucent(*sum, rules);
                 }
             }
         }
+    }
+
+    /// The levels of two pixels, each in its place of a pixel's word; alpha has none.
+    #[inline(always)]
+    fn in_places<S: Simd>(&self, simd: S, sums: f64x8<S>) -> f64x8<S> {
+        let full = f64x8::splat(simd, self.one);
+        let places = f64x8::simd_from(simd, [65536.0, 256.0, 1.0, 0.0, 65536.0, 256.0, 1.0, 0.0]);
+        let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
+        levels.floor() * places
     }
 
     /// The same of what is not opaque.
@@ -429,6 +426,16 @@ fn both_halves<S: Simd>(simd: S, [first, second]: [i32x16<S>; 2]) -> f64x8<S> {
     let low = floats(simd, joined(low).combine(joined(second_low)));
     let high = floats(simd, joined(high).combine(joined(second_high)));
     high * f64::from(1 << 16) + low
+}
+
+/// The sums of two numbers' channels, which lie next to each other channel by channel, below 2^52.
+#[inline(always)]
+fn both_words<S: Simd>(channels: f64x8<S>) -> [u64; 2] {
+    // Whole numbers below it are the lowest bits of what they make with it.
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    let (left, right) = channels.split();
+    let (left, right) = (left + right).split();
+    (left + right + WHOLE).bitcast::<u64x2<S>>().to_array()
 }
 
 /// The sums of even and odd rows together.

@@ -139,28 +139,41 @@ impl DotSums {
         self.sums.resize((self.width + TOGETHER) * self.blocks, [0; 4 * BLOCK]);
         self.halves
             .resize((around * self.width + TOGETHER) * self.blocks, [0; AT_ONCE]);
-        let rows = block.rect.y;
-        for y in 0..flat.height() + 2 * self.margin {
-            for run in flat.around(y, self.margin).runs() {
-                let place = y % around * self.width;
-                if self.blocks == 1 {
-                    dispatch!(simd::level(), simd => self.across::<_, 1>(simd, (colors, y), run, place));
-                } else {
-                    dispatch!(simd::level(), simd => self.across::<_, 2>(simd, (colors, y), run, place));
-                }
-            }
-            let Some(row) = y.checked_sub(2 * self.margin) else {
-                continue;
-            };
-            let line = block.line(rows.start + i32::try_from(row).unwrap_or(0));
-            for run in flat.mixed(row).runs() {
-                if self.blocks == 1 {
-                    dispatch!(simd::level(), simd => self.down::<_, 1>(simd, row, run, line));
-                } else {
-                    dispatch!(simd::level(), simd => self.down::<_, 2>(simd, row, run, line));
-                }
-            }
+        if self.blocks == 1 {
+            dispatch!(simd::level(), simd => self.rows::<_, 1>(simd, colors, flat, block));
+        } else {
+            dispatch!(simd::level(), simd => self.rows::<_, 2>(simd, colors, flat, block));
         }
+    }
+
+    /// Row by row: all of a tile in one go, since most runs of pixels are short.
+    #[inline(always)]
+    fn rows<S: Simd, const BLOCKS: usize>(
+        &mut self,
+        simd: S,
+        colors: &SampleColors,
+        flat: &FlatPixels,
+        block: &mut PixelBlock<'_>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let around = 2 * self.margin + 1;
+                let rows = block.rect.y;
+                for y in 0..flat.height() + 2 * self.margin {
+                    for run in flat.around(y, self.margin).runs() {
+                        self.across::<S, BLOCKS>(simd, (colors, y), run, y % around * self.width);
+                    }
+                    let Some(row) = y.checked_sub(2 * self.margin) else {
+                        continue;
+                    };
+                    let line = block.line(rows.start + i32::try_from(row).unwrap_or(0));
+                    for run in flat.mixed(row).runs() {
+                        self.down::<S, BLOCKS>(simd, row, run, line);
+                    }
+                }
+            },
+        );
     }
 
     /// Sums up the rows of samples around pixels side by side, from row `y` of what was painted, and puts them into the memory of
@@ -173,35 +186,30 @@ impl DotSums {
         pixels: Range<usize>,
         place: usize,
     ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let read = pixels.start..pixels.end + 2 * self.margin;
-                let (shown, split) = colors.row(y);
-                let seen = shown[read.clone()].iter().zip(&split[read.clone()]);
-                for (whole, (color, split)) in self.whole[read.clone()].iter_mut().zip(seen) {
-                    let kept = u64::from(*split).wrapping_sub(1);
-                    *whole = (color.to_word() ^ MOVED_WORD) & kept;
-                }
-                for (pair, whole) in self.pairs[read.clone()]
-                    .iter_mut()
-                    .zip(self.whole[read.start..].windows(2))
-                {
-                    *pair = beside(simd, [whole[0], whole[1]]).to_array();
-                }
-                self.add_whole::<S, BLOCKS>(simd, pixels.clone());
-                for x in read.filter(|x| split[*x]) {
-                    if let PixelColors::Split(samples) = colors.pixel(y * colors.width() + x) {
-                        self.add_split::<S, BLOCKS>(simd, x, samples, &pixels);
-                    }
-                }
-                let (first, last) = (pixels.start * BLOCKS, pixels.end * BLOCKS);
-                let found = &mut self.halves[place * BLOCKS..][first..last];
-                for (halves, sums) in found.iter_mut().zip(&self.sums[first..last]) {
-                    *halves = cut(simd, *sums);
-                }
-            },
-        );
+        let read = pixels.start..pixels.end + 2 * self.margin;
+        let (shown, split) = colors.row(y);
+        let seen = shown[read.clone()].iter().zip(&split[read.clone()]);
+        for (whole, (color, split)) in self.whole[read.clone()].iter_mut().zip(seen) {
+            let kept = u64::from(*split).wrapping_sub(1);
+            *whole = (color.to_word() ^ MOVED_WORD) & kept;
+        }
+        let both = self.whole[read.start..].windows(2);
+        for (pair, whole) in self.pairs[read.clone()].iter_mut().zip(both) {
+            *pair = beside(simd, [whole[0], whole[1]]).to_array();
+        }
+        self.add_whole::<S, BLOCKS>(simd, pixels.clone());
+        for x in read {
+            if split[x]
+                && let PixelColors::Split(samples) = colors.pixel(y * colors.width() + x)
+            {
+                self.add_split::<S, BLOCKS>(simd, x, samples, &pixels);
+            }
+        }
+        let (first, last) = (pixels.start * BLOCKS, pixels.end * BLOCKS);
+        let found = &mut self.halves[place * BLOCKS..][first..last];
+        for (halves, sums) in found.iter_mut().zip(&self.sums[first..last]) {
+            *halves = cut(simd, *sums);
+        }
     }
 
     /// The sums of rows around pixels, of what pixels of one colour add to them: as much to each row.
@@ -259,30 +267,25 @@ impl DotSums {
     /// Sums up the last rows around pixels side by side, and makes pixels of them.
     #[inline(always)]
     fn down<S: Simd, const BLOCKS: usize>(&self, simd: S, row: usize, pixels: Range<usize>, line: &mut [u32]) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let around = 2 * self.margin + 1;
-                for start in pixels.clone().step_by(TOGETHER) {
-                    let mut sums = [i32x16::splat(simd, 0); TOGETHER];
-                    let mut at = row % around;
-                    for weights in self.rows.chunks_exact(BLOCKS) {
-                        let halves = &self.halves[(at * self.width + start) * BLOCKS..][..TOGETHER * BLOCKS];
-                        for (sum, halves) in sums.iter_mut().zip(halves.chunks_exact(BLOCKS)) {
-                            for (halves, weights) in halves.iter().zip(weights) {
-                                let weights = i16x32::simd_from(simd, *weights);
-                                *sum += i16x32::simd_from(simd, *halves).pairwise_dot_product(weights);
-                            }
-                        }
-                        at = if at + 1 == around { 0 } else { at + 1 };
+        let around = 2 * self.margin + 1;
+        for start in pixels.clone().step_by(TOGETHER) {
+            let mut sums = [i32x16::splat(simd, 0); TOGETHER];
+            let mut at = row % around;
+            for weights in self.rows.chunks_exact(BLOCKS) {
+                let halves = &self.halves[(at * self.width + start) * BLOCKS..][..TOGETHER * BLOCKS];
+                for (sum, halves) in sums.iter_mut().zip(halves.chunks_exact(BLOCKS)) {
+                    for (halves, weights) in halves.iter().zip(weights) {
+                        let weights = i16x32::simd_from(simd, *weights);
+                        *sum += i16x32::simd_from(simd, *halves).pairwise_dot_product(weights);
                     }
-                    let [a, b, c, d] = sums;
-                    let sums = [both_halves(simd, [a, b]), both_halves(simd, [c, d])];
-                    let end = pixels.end.min(start + TOGETHER);
-                    self.mean.put(simd, sums, &mut line[start..end], self.rules);
                 }
-            },
-        );
+                at = if at + 1 == around { 0 } else { at + 1 };
+            }
+            let [a, b, c, d] = sums;
+            let sums = [both_halves(simd, [a, b]), both_halves(simd, [c, d])];
+            let end = pixels.end.min(start + TOGETHER);
+            self.mean.put(simd, sums, &mut line[start..end], self.rules);
+        }
     }
 }
 

@@ -131,7 +131,16 @@ pub(super) fn decode(document: &[u8]) -> Result<Cow<'_, str>, Fault> {
     Ok(text)
 }
 
-/// UTF-8, or Latin-1 where the XML declaration says so.
+/// What the bytes from 0x80 on are in Windows-1252, as far as they are not those of Latin-1; Windows reads the five that mean
+/// nothing as Latin-1 does, and browsers read documents in Latin-1 so.
+const WINDOWS: [char; 32] = [
+    '\u{20ac}', '\u{81}', '\u{201a}', '\u{192}', '\u{201e}', '\u{2026}', '\u{2020}', '\u{2021}', '\u{2c6}', '\u{2030}',
+    '\u{160}', '\u{2039}', '\u{152}', '\u{8d}', '\u{17d}', '\u{8f}', '\u{90}', '\u{2018}', '\u{2019}', '\u{201c}',
+    '\u{201d}', '\u{2022}', '\u{2013}', '\u{2014}', '\u{2dc}', '\u{2122}', '\u{161}', '\u{203a}', '\u{153}', '\u{9d}',
+    '\u{17e}', '\u{178}',
+];
+
+/// UTF-8, or Windows-1252 where the XML declaration says so, or Latin-1, which differs from it in control characters only.
 fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     const DECLARATION: usize = 200;
     let error = match std::str::from_utf8(bytes) {
@@ -141,7 +150,11 @@ fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(DECLARATION)]).to_ascii_lowercase();
     let declaration = head.split("?>").next().unwrap_or("");
     if declaration.contains("iso-8859-1") || declaration.contains("windows-1252") {
-        return Ok(Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()));
+        let letter = |&byte: &u8| {
+            let windows = usize::from(byte).checked_sub(0x80).and_then(|at| WINDOWS.get(at));
+            windows.copied().unwrap_or_else(|| char::from(byte))
+        };
+        return Ok(Cow::Owned(bytes.iter().map(letter).collect()));
     }
     let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
     Err(Problem::Encoding.at(LineIndex::new(&valid).locate(valid.len())))
@@ -373,6 +386,11 @@ mod tests {
         }
         let latin = b"<?xml version='1.0' encoding='ISO-8859-1'?><svg>\xe9</svg>";
         assert!(decode(latin).expect("latin").ends_with(text), "declared Latin-1");
+        let windows = b"<?xml version='1.0' encoding='windows-1252'?>\x96\xe9\x80";
+        assert!(
+            decode(windows).expect("windows").ends_with("\u{2013}\u{e9}\u{20ac}"),
+            "a dash and the euro"
+        );
     }
 
     #[test]

@@ -10,6 +10,7 @@ use roxmltree::{Document, Error, ParsingOptions};
 
 use super::error::Fault;
 use super::report::shorten;
+use super::substitutes::substituted;
 use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, entities};
 
 /// Most elements, texts and comments in a document.
@@ -173,7 +174,7 @@ fn from_utf16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> Result<Cow<'static
 #[derive(Debug)]
 pub(super) struct Source<'doc> {
     original: &'doc str,
-    /// The text to parse: the original, or one with [`XLINK`] put in.
+    /// The text to parse: the original, or one with [`XLINK`] put in and plain values where newer CSS stands.
     text: Cow<'doc, str>,
     /// Where something was put in, and how many bytes.
     inserted: (usize, usize),
@@ -208,6 +209,10 @@ impl<'doc> Source<'doc> {
                 (Cow::Owned(text), (at, XLINK.len()))
             }
             _ => (Cow::Borrowed(original), (0, 0)),
+        };
+        let text = match substituted(&text) {
+            Cow::Owned(plain) => Cow::Owned(plain),
+            Cow::Borrowed(_) => text,
         };
         Ok(Self {
             original,

@@ -4,9 +4,8 @@
 use roxmltree::Node;
 
 use super::listener::Listener;
-use super::values;
+use super::{nonsense, values};
 use crate::scene::error::Fault;
-use crate::scene::report::quote;
 use crate::scene::{SkippedKind, numbers};
 
 /// Properties that are read and not drawn, with the values that make no difference.
@@ -104,12 +103,10 @@ fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value
     if values::is_understood(name, value) {
         return;
     }
-    let message = if name == "fill" {
-        format!("fill=\"{}\" is not understood; black is taken", quote(value))
-    } else if name == "points" && values::is_odd(value) {
+    let message = if name == "points" && values::is_odd(value) {
         "points holds an odd number of coordinates; the last has no effect".to_owned()
     } else {
-        format!("{name}=\"{}\" is not understood and has no effect", quote(value))
+        nonsense::without_effect(name, value)
     };
     listener.warn(node, message);
 }

@@ -12,11 +12,11 @@
 mod check;
 mod circles;
 mod clip;
-mod edits;
 mod elements;
 mod fonts;
 mod guarded;
 mod listener;
+mod nonsense;
 mod paint;
 mod painter;
 mod pictures;

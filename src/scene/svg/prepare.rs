@@ -4,11 +4,11 @@
 use roxmltree::{Attribute, Node};
 
 use super::check;
-use super::edits::Edits;
 use super::elements::Elements;
 use super::listener::Listener;
-use super::styles;
 use super::values::WHITENS;
+use super::{nonsense, styles};
+use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
 
@@ -170,6 +170,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.count(node)?;
         self.identify(node);
         self.pixelate(node);
+        self.hide_nonsense(node);
         match name {
             "image" => self.image(node, heard),
             "colortri" | "textri" => self.triangle(node)?,
@@ -246,6 +247,22 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         if let Some(attribute) = attribute.filter(|attribute| matches!(attribute.value(), "pixelated" | "crisp-edges"))
         {
             self.edits.replace(attribute.range_value(), "optimizeSpeed".to_owned());
+        }
+    }
+
+    /// Takes their names from values that usvg would make black of.
+    fn hide_nonsense(&mut self, node: Node<'doc, 'doc>) {
+        if is_own_triangle(node) {
+            return;
+        }
+        for at in nonsense::names(self.text, node) {
+            self.edits.insert(at, nonsense::UNREAD.to_owned());
+        }
+        if node.tag_name().name() == "style" {
+            for (at, message) in nonsense::names_in_sheet(self.text, node) {
+                self.edits.insert(at, nonsense::UNREAD.to_owned());
+                self.listener.warn(node, message);
+            }
         }
     }
 

@@ -13,7 +13,7 @@ use crate::scene::{Problem, attributes};
 /// Most bytes that may be passed over while styles are read, some seconds' worth.
 const MAX_PASSED: u64 = 3_000_000_000;
 /// How often a `style` attribute is read, here and by usvg; and how often a style sheet.
-const READINGS: [u64; 2] = [5, 3];
+const READINGS: [u64; 2] = [6, 4];
 
 /// Most steps of comparing elements with the rules of style sheets.
 const MAX_STEPS: u64 = 60_000_000;

@@ -316,11 +316,15 @@ fn svg_nonsense_is_ignored_with_a_warning() {
     for (body, warning) in [
         (
             "<rect width='1' height='1' fill='reddish'/>",
-            "fill=\"reddish\" is not understood; black is taken",
+            "fill=\"reddish\" is not understood and has no effect",
         ),
         (
             "<rect width='1' height='1' transform='spin(2)'/>",
             "transform=\"spin(2)\" is not understood and has no effect",
+        ),
+        (
+            "<style>rect, g { stroke: reddish }</style><rect width='1' height='1'/>",
+            "stroke=\"reddish\" is not understood and has no effect",
         ),
         (
             "<rect width='1' height='1' x='left'/>",
@@ -344,6 +348,45 @@ fn svg_nonsense_is_ignored_with_a_warning() {
         let lines = lines(&scene);
         assert_eq!(lines.len(), 1, "{body}: {lines:?}");
         assert!(lines[0].ends_with(warning), "{body}: {lines:?}");
+    }
+}
+
+#[test]
+fn svg_colors_that_nobody_understands_let_others_through() {
+    let shape = "width='9' height='9' transform='rotate(3)'";
+    for (body, plain) in [
+        // As draw.io writes it: for what knows no `light-dark`, the attribute has the colour.
+        (
+            "<rect fill='#fc9' style='fill: light-dark(#fc9, #663600); stroke: light-dark(rgb(1, 2, 3), red)' SHAPE/>",
+            "<rect fill='#fc9' stroke='#010203' SHAPE/>",
+        ),
+        (
+            "<rect fill='var(--fill-0, #D9D9D9)' SHAPE/>",
+            "<rect fill='#D9D9D9' SHAPE/>",
+        ),
+        (
+            "<rect fill='lime' style='fill: oklch(0.7 0.1 100)' SHAPE/>",
+            "<rect fill='lime' SHAPE/>",
+        ),
+        (
+            "<g fill='lime'><rect fill='reddish' SHAPE/></g>",
+            "<g fill='lime'><rect SHAPE/></g>",
+        ),
+        (
+            "<style>rect { fill: reddish; stroke: red }</style><rect fill='lime' SHAPE/>",
+            "<rect fill='lime' stroke='red' SHAPE/>",
+        ),
+        (
+            "<rect style='filter: drop-shadow(0 0 2px rgb(0 0 0 / 40%)); --size: 3; fill: lime' SHAPE/>",
+            "<rect fill='lime' SHAPE/>",
+        ),
+        (
+            "<style>:root { --main: lime } rect { fill: var(--main) }</style><rect SHAPE/>",
+            "<rect fill='lime' SHAPE/>",
+        ),
+    ] {
+        let [body, plain] = [body, plain].map(|body| svg_scene(&body.replace("SHAPE", shape)));
+        assert_eq!(kinds(&body), kinds(&plain), "{:?}", lines(&body));
     }
 }
 

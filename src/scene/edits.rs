@@ -1,5 +1,6 @@
 //! Changes to a text, gathered in any order and made at once.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Pieces of a text that are to be replaced; none overlaps another.
@@ -15,6 +16,14 @@ impl Edits {
     /// Puts `piece` in the place of what is there.
     pub(super) fn replace(&mut self, there: Range<usize>, piece: String) {
         self.0.push((there, piece));
+    }
+
+    /// The text with all changes; where there are none, the text itself.
+    pub(super) fn apply_to(self, text: Cow<'_, str>) -> Cow<'_, str> {
+        if self.0.is_empty() {
+            return text;
+        }
+        Cow::Owned(self.apply(&text))
     }
 
     /// The text with all changes.

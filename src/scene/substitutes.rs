@@ -1,0 +1,412 @@
+//! What newer CSS writes where SVG has a plain value: `light-dark()`, `var()` and custom properties, percentages of opacity in
+//! `rgb()`, functions inside functions.
+//!
+//! Drawing programs write them (draw.io, Figma, Mermaid), and the reader of styles stops at the first that it does not know,
+//! with all that follows in the same style. So plain values take their places, filled up with blanks: every place in the
+//! document stays where it is.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::edits::Edits;
+
+/// Most bytes of one function; a longer one stays as it is.
+const MAX_LENGTH: usize = 400;
+/// Most functions that are looked into.
+const MAX_FUNCTIONS: usize = 1_000_000;
+/// Functions inside each other, at most.
+const MAX_DEPTH: usize = 8;
+/// The functions that have a plain value.
+const FUNCTIONS: [&str; 4] = ["light-dark", "var", "rgb", "rgba"];
+/// Whose custom properties hold for the whole document.
+const ROOTS: [&str; 3] = [":root", "svg", "*"];
+
+/// The document's custom properties.
+type Properties<'t> = HashMap<&'t str, String>;
+
+/// The document with plain values, as long as before.
+pub(super) fn substituted(text: &str) -> Cow<'_, str> {
+    let has = |sign: &str| text.contains(sign);
+    if !["var(", "light-dark(", "%)"].into_iter().any(has) && !has_custom_properties(text) && !is_nested(text) {
+        return Cow::Borrowed(text);
+    }
+    let markup = Markup::of(text);
+    let properties = markup.properties(text);
+    let mut edits = Edits::default();
+    let mut left = MAX_FUNCTIONS;
+    for part in markup.tags.iter().chain(&markup.sheets) {
+        for (span, value) in functions(text, part.clone(), &mut left) {
+            let width = span.len();
+            let stands_for = plain(value, &properties, 0).filter(|plain| plain.len() <= width && plain != value);
+            if let Some(plain) = stands_for {
+                let blanks = width - plain.len();
+                edits.replace(span, plain + &" ".repeat(blanks));
+            }
+        }
+    }
+    let mut text = edits.apply_to(Cow::Borrowed(text));
+    let mut edits = Edits::default();
+    for style in &markup.styles {
+        unnest(&text, style.clone(), 1, &mut edits);
+    }
+    for sheet in &markup.sheets {
+        unnest(&text, sheet.clone(), 0, &mut edits);
+    }
+    text = edits.apply_to(text);
+    text
+}
+
+/// Whether there may be a name that begins as those of custom properties do.
+fn has_custom_properties(text: &str) -> bool {
+    text.match_indices("--").any(|(at, dashes)| {
+        let begins_comment = text[..at].ends_with("<!");
+        !begins_comment && text[at + dashes.len()..].starts_with(|c: char| c.is_ascii_alphabetic())
+    })
+}
+
+/// Whether a parenthesis opens inside another.
+fn is_nested(text: &str) -> bool {
+    let mut parentheses = text.bytes().filter(|byte| matches!(byte, b'(' | b')'));
+    let mut last = b')';
+    parentheses.any(|byte| std::mem::replace(&mut last, byte) == b'(' && byte == b'(')
+}
+
+/// Where in a document styles stand.
+#[derive(Debug, Default)]
+struct Markup {
+    /// Start tags, the root's first.
+    tags: Vec<Range<usize>>,
+    /// Values of attributes `style`.
+    styles: Vec<Range<usize>>,
+    /// Contents of elements `style`.
+    sheets: Vec<Range<usize>>,
+}
+
+impl Markup {
+    fn of(text: &str) -> Self {
+        let mut found = Self::default();
+        let mut at = 0;
+        while let Some(start) = text[at..].find('<').map(|start| at + start) {
+            let rest = &text[start..];
+            let (skipped, end) = match rest.as_bytes() {
+                [b'<', b'!', b'-', b'-', ..] => (true, rest.find("-->")),
+                [b'<', b'!', b'[', ..] => (true, rest.find("]]>")),
+                [b'<', b'!' | b'?' | b'/', ..] => (true, Some(1)),
+                tag => (false, tag_end(tag)),
+            };
+            let Some(end) = end.map(|end| start + end) else {
+                break;
+            };
+            at = end.max(start + 1);
+            if !skipped {
+                found.tag(text, start..end);
+                if is_sheet(&text[start..end]) {
+                    let begin = end + 1;
+                    at = text[begin..].find("</").map_or(text.len(), |length| begin + length);
+                    found.sheets.push(begin..at);
+                }
+            }
+        }
+        found
+    }
+
+    fn tag(&mut self, text: &str, range: Range<usize>) {
+        let tag = &text[range.clone()];
+        self.tags.push(range.clone());
+        let style = tag.match_indices("style").find_map(|(at, name)| {
+            let is_start = tag[..at].ends_with(|c: char| c.is_ascii_whitespace());
+            let value = tag[at + name.len()..].trim_start().strip_prefix('=')?.trim_start();
+            let quote = value.chars().next().filter(|c| is_start && matches!(c, '"' | '\''))?;
+            let begin = range.end - value.len() + 1;
+            Some(begin..begin + value[1..].find(quote)?)
+        });
+        self.styles.extend(style);
+    }
+
+    /// The custom properties of the root element, and of style sheets for it.
+    fn properties<'t>(&self, text: &'t str) -> Properties<'t> {
+        let mut properties = HashMap::new();
+        for sheet in &self.sheets {
+            let mut rest = &text[sheet.clone()];
+            while let Some((selector, block)) = rest.split_once('{') {
+                let selector = ["*/", "CDATA["]
+                    .into_iter()
+                    .fold(selector, |rest, mark| rest.rsplit(mark).next().unwrap_or(""));
+                let (body, after) = block.split_at(block_end(block));
+                if selector.split(',').any(|selector| ROOTS.contains(&selector.trim())) {
+                    define(body, &mut properties);
+                }
+                rest = after.strip_prefix('}').unwrap_or("");
+            }
+        }
+        let root_end = self.tags.first().map_or(0, |tag| tag.end);
+        if let Some(style) = self.styles.first().filter(|style| style.end <= root_end) {
+            define(&text[style.clone()], &mut properties);
+        }
+        properties
+    }
+}
+
+/// The length of a tag at the start of `markup`, without the bracket that ends it.
+fn tag_end(markup: &[u8]) -> Option<usize> {
+    let mut quote = None;
+    markup.iter().position(|&byte| {
+        match (quote, byte) {
+            (None, b'"' | b'\'') => quote = Some(byte),
+            (Some(open), close) if open == close => quote = None,
+            _ => {}
+        }
+        quote.is_none() && byte == b'>'
+    })
+}
+
+/// Whether a tag, without its last bracket, opens a style sheet.
+fn is_sheet(tag: &str) -> bool {
+    let name = tag[1..].split([' ', '\t', '\r', '\n', '/']).next().unwrap_or("");
+    (name == "style" || name.ends_with(":style")) && !tag.ends_with('/')
+}
+
+/// Where a block ends, whose opening brace is passed.
+fn block_end(block: &str) -> usize {
+    let mut depth = 1;
+    let end = block.bytes().position(|byte| {
+        match byte {
+            b'{' => depth += 1,
+            b'}' => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    });
+    end.unwrap_or(block.len())
+}
+
+/// Takes over the custom properties of a style.
+fn define<'t>(style: &'t str, properties: &mut Properties<'t>) {
+    for declaration in style.split(';') {
+        let Some((name, value)) = declaration.split_once(':') else {
+            continue;
+        };
+        let name = name.rsplit("*/").next().unwrap_or("").trim();
+        if let Some(value) = Some(value).filter(|value| name.starts_with("--") && value.len() <= MAX_LENGTH)
+            && let Some(value) = plain(value.trim(), properties, 0)
+        {
+            properties.insert(name, value);
+        }
+    }
+}
+
+/// The outermost functions in a part of a text that may have a plain value; `left` is how many more there may be.
+fn functions<'t>(text: &'t str, part: Range<usize>, left: &mut usize) -> Vec<(Range<usize>, &'t str)> {
+    let mut found = Vec::new();
+    let mut at = part.start;
+    while let Some(open) = text[at..part.end].find('(').map(|open| at + open) {
+        at = open + 1;
+        let before = &text[part.start..open];
+        let is_ours = FUNCTIONS.into_iter().find(|name| is_call(before, name));
+        let Some(name) = is_ours.filter(|_| *left > 0) else {
+            continue;
+        };
+        *left -= 1;
+        if let Some(close) = closing(&text[at..part.end]) {
+            at += close + 1;
+            let span = open - name.len()..at;
+            found.push((span.clone(), &text[span]));
+        }
+    }
+    found
+}
+
+/// Whether what stands before a parenthesis is this name, whole.
+fn is_call(before: &str, name: &str) -> bool {
+    let rest = before.strip_suffix(name);
+    rest.is_some_and(|rest| !rest.ends_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_')))
+}
+
+/// How far the parenthesis is that closes one before `text`.
+fn closing(text: &str) -> Option<usize> {
+    let mut depth = 1;
+    text.bytes().take(MAX_LENGTH).position(|byte| {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    })
+}
+
+/// A value with what its functions stand for; `None` where that is not known.
+fn plain(value: &str, properties: &Properties<'_>, depth: usize) -> Option<String> {
+    if depth > MAX_DEPTH {
+        return None;
+    }
+    let mut left = MAX_LENGTH;
+    let mut edits = Edits::default();
+    for (span, function) in functions(value, 0..value.len(), &mut left) {
+        let (name, rest) = function.split_once('(')?;
+        let arguments = rest.strip_suffix(')')?;
+        let (first, second) = split(arguments);
+        let stands_for = match name {
+            "light-dark" => plain(first, properties, depth + 1)?,
+            "var" => match (properties.get(first.trim()), second) {
+                (Some(value), _) => value.clone(),
+                (None, second) => plain(second?, properties, depth + 1)?,
+            },
+            _ => {
+                let arguments = plain(arguments, properties, depth + 1)?;
+                translucent(&arguments).unwrap_or_else(|| format!("{name}({arguments})"))
+            }
+        };
+        edits.replace(span, stands_for.trim().to_owned());
+    }
+    Some(edits.apply_to(Cow::Borrowed(value)).into_owned()).filter(|value| !value.trim().is_empty())
+}
+
+/// The first argument, and all that follow.
+fn split(arguments: &str) -> (&str, Option<&str>) {
+    let mut depth = 0;
+    let comma = arguments.bytes().position(|byte| {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            _ => {}
+        }
+        depth == 0 && byte == b','
+    });
+    match comma {
+        Some(at) => (&arguments[..at], Some(&arguments[at + 1..])),
+        None => (arguments, None),
+    }
+}
+
+/// A colour by its channels, with opacity in percent.
+fn translucent(arguments: &str) -> Option<String> {
+    let (channels, opacity) = arguments.rsplit_once(['/', ','])?;
+    let opacity: f64 = opacity.trim().strip_suffix('%')?.parse().ok()?;
+    let channels: Vec<&str> = channels
+        .split([' ', ','])
+        .filter(|channel| !channel.is_empty())
+        .collect();
+    let [red, green, blue] = channels.as_slice() else {
+        return None;
+    };
+    let opacity = (opacity / 100.0).clamp(0.0, 1.0);
+    // Three digits, without the zero before them.
+    let opacity = format!("{opacity:.3}");
+    Some(format!(
+        "rgba({red},{green},{blue},{})",
+        opacity.trim_start_matches('0')
+    ))
+}
+
+/// Takes the parentheses of functions inside functions away, and the names of custom properties. `braces` is how many are open
+/// where declarations stand.
+fn unnest(text: &str, part: Range<usize>, braces: usize, edits: &mut Edits) {
+    let mut quote = None;
+    let [mut depth, mut braces] = [0, braces];
+    let mut last = b';';
+    for (at, &byte) in text.as_bytes()[part.clone()].iter().enumerate() {
+        let here = part.start + at;
+        match (quote, byte) {
+            (Some(open), close) if open == close => quote = None,
+            (None, b'"' | b'\'') => quote = Some(byte),
+            (None, b'{' | b'}' | b';') => {
+                depth = 0;
+                braces = match byte {
+                    b'{' => braces + 1,
+                    b'}' => braces.saturating_sub(1),
+                    _ => braces,
+                };
+            }
+            (None, b'(') if braces > 0 => {
+                depth += 1;
+                if depth > 1 {
+                    edits.replace(here..here + 1, " ".to_owned());
+                }
+            }
+            (None, b')') if depth > 0 => {
+                if depth > 1 {
+                    edits.replace(here..here + 1, " ".to_owned());
+                }
+                depth -= 1;
+            }
+            (None, b'-') if matches!(last, b';' | b'{' | b'/') && text[here..].starts_with("--") && braces > 0 => {
+                edits.replace(here..here + 1, "x".to_owned());
+            }
+            _ => {}
+        }
+        if !byte.is_ascii_whitespace() {
+            last = byte;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn assert_becomes(text: &str, expected: &str) {
+        let plain = substituted(text);
+        assert_eq!(plain.len(), text.len(), "every place stays: {plain}");
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(words(&plain), expected, "{text}");
+    }
+
+    #[test]
+    fn functions_become_what_they_stand_for() {
+        for (text, expected) in [
+            (
+                "<svg><rect fill='light-dark(rgb(0, 0, 0), #fff)'/></svg>",
+                "<svg><rect fill='rgb(0, 0, 0) '/></svg>",
+            ),
+            (
+                "<svg><rect style='fill: light-dark(#ffcc99, var(--x, #663600)); stroke: red'/></svg>",
+                "<svg><rect style='fill: #ffcc99 ; stroke: red'/></svg>",
+            ),
+            (
+                "<svg><rect fill='var(--fill-0, #D9D9D9)' stroke='var(--a, var(--b, red))'/></svg>",
+                "<svg><rect fill='#D9D9D9 ' stroke='red '/></svg>",
+            ),
+            (
+                "<svg><rect fill='rgb(255 0 0 / 50%)' stroke='rgba(1, 2, 3, 100%)'/></svg>",
+                "<svg><rect fill='rgba(255,0,0,.500)' stroke='rgba(1,2,3,1.000) '/></svg>",
+            ),
+        ] {
+            assert_becomes(text, expected);
+        }
+    }
+
+    #[test]
+    fn custom_properties_of_the_root_hold_everywhere() {
+        assert_becomes(
+            "<svg style='--b: blue'><style>:root { --c: red; } @media print { :root { --c: none; } } rect { --d: 1; fill: \
+             var(--c) }</style><rect stroke='var(--b)'/></svg>",
+            "<svg style='x-b: blue'><style>:root { x-c: red; } @media print { :root { x-c: none; } } rect { x-d: 1; fill: \
+             red }</style><rect stroke='blue '/></svg>",
+        );
+    }
+
+    #[test]
+    fn functions_inside_others_end_no_style() {
+        assert_becomes(
+            "<svg><g style='filter: drop-shadow(0 0 2px rgb(0,0,0)); fill: url(\"a(b)\")'/></svg>",
+            "<svg><g style='filter: drop-shadow(0 0 2px rgb 0,0,0 ); fill: url(\"a(b)\")'/></svg>",
+        );
+    }
+
+    #[test]
+    fn what_is_no_style_stays() {
+        for text in [
+            "<svg><text>var(--a, b) -- (())</text><!-- <g fill='var(--a, b)'/> --></svg>",
+            "<svg><rect fill='var(--a)' id='myvar(1,2)'/></svg>",
+            "<svg><rect fill='var(--a, var(--b))' transform='rotate(3)'/></svg>",
+            "<svg><style>g:not(:nth-child(2)) { fill: red }</style></svg>",
+            "<svg style='fill:var(",
+            "<svg><style>:root{",
+        ] {
+            assert_eq!(substituted(text), text);
+        }
+    }
+}

@@ -27,6 +27,10 @@ const MAX_POINTS: usize = 10_000_000;
 const WATCHED: usize = 1024;
 /// What of the time has passed before the first shape is read.
 pub(super) const BEFORE_SHAPES: f64 = 0.4;
+/// Areas with curves from which on their edges begin coarser, so that a crowd of small ones does not have more points than
+/// that; and how much coarser at most. A view has finer ones made for what it shows.
+const MANY_AREAS: f64 = 60_000.0;
+const COARSEST: f64 = 1.0 / 64.0;
 /// What is said where there would be more.
 const TOO_MANY_POINTS: Problem = Problem::TooMany {
     what: "points of polygons",
@@ -283,9 +287,15 @@ impl<'doc> Builder<'doc> {
     /// Finds the edges of all areas that wait; what turns out to cover nothing is dropped.
     pub(super) fn find_edges(&mut self) -> Result<(), Fault> {
         let left = AtomicUsize::new(self.points_left);
+        // The points of a curve are as many as the root of the scale that they are fine enough for.
+        let part = MANY_AREAS / self.waiting.len().max(1) as f64;
+        let coarser = part.powi(2).clamp(COARSEST, 1.0);
         let found: Vec<(usize, Result<Polygon, Problem>)> = std::mem::take(&mut self.waiting)
             .into_par_iter()
-            .map(|waiting| (waiting.primitive, waiting.polygon(&left)))
+            .map(|mut waiting| {
+                waiting.edges.scale *= coarser;
+                (waiting.primitive, waiting.polygon(&left))
+            })
             .collect();
         self.points_left = left.into_inner();
         let mut is_any_empty = false;

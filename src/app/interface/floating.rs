@@ -123,7 +123,8 @@ pub(super) fn shows_other_than_set(viewer: &Viewer) -> bool {
 /// A thin bar along the picture's upper edge: how far a refinement is that takes long. Nothing but the clock tells when a scene takes
 /// long.
 pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
-    if let Some(wait) = viewer.frames().wait_is_told_in().filter(|wait| !wait.is_zero()) {
+    let waits = [viewer.frames().wait_is_told_in(), viewer.ab().wait_is_told_in()];
+    for wait in waits.into_iter().flatten().filter(|wait| !wait.is_zero()) {
         ui.ctx().request_repaint_after(wait);
     }
     let Some(done) = viewer.frames().long_refinement() else {

@@ -159,6 +159,7 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
     }
     // First, so that it is the last to give way: the other reading is another picture.
     let mut words: Vec<String> = viewer.scene_list().reading_words().into_iter().collect();
+    words.extend(viewer.ab().preview_text().map(|text| format!("B: {text}")));
     words.push(format!("{width}×{height}"));
     if let Some(numbers) = viewer.both().view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));

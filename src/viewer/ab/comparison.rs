@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::color::ResolveSpace;
 use crate::compare::{DifferencePaint, DifferenceStyle};
@@ -243,6 +243,21 @@ impl Comparison {
     pub(in crate::viewer) fn take_changes(&mut self) -> Changes {
         let none = Changes::Regions(Vec::new());
         self.drawing.as_mut().map_or(none, Drawing::take_changes)
+    }
+
+    /// B's drawing, where B is to be seen.
+    fn seen_other(&self) -> Option<&Drawing> {
+        self.drawn_other().filter(|_| self.shows_both())
+    }
+
+    /// What the status line says where B is to be seen and is not final, such as `refining 20 %`.
+    pub fn preview_text(&self) -> Option<String> {
+        self.seen_other()?.preview_text()
+    }
+
+    /// As [`Frames::wait_is_told_in`](crate::viewer::Frames::wait_is_told_in), of B where it is to be seen.
+    pub fn wait_is_told_in(&self) -> Option<Duration> {
+        self.seen_other()?.wait_is_told_in()
     }
 
     /// Whether B is there, or nothing of it is wanted: no scene, or no window to show it in.

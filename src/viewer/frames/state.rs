@@ -6,9 +6,7 @@ use crate::viewer::PixelRect;
 use crate::viewer::frames::drawing::Drawing;
 use crate::viewer::frames::frame::{Frame, PreviewQuality};
 use crate::viewer::frames::legends::Legends;
-
-/// What takes longer is told: how far a refinement is, and that nothing of a scene is there yet.
-const LONG: Duration = Duration::from_millis(200);
+use crate::viewer::frames::progress::LONG;
 
 /// What draws A's frame, and what lies over it.
 #[derive(Debug)]
@@ -58,30 +56,17 @@ impl Frames {
     /// How long it will be until a scene has been waited for so long that it is to be told, if nothing of it is on the screen: no time
     /// at all from then on.
     pub fn wait_is_told_in(&self) -> Option<Duration> {
-        let since = self.drawing.awaited_since()?;
-        Some(LONG.saturating_sub(Instant::now().saturating_duration_since(since)))
+        self.drawing.wait_is_told_in()
     }
 
     /// What is said where the scene takes long of which nothing is on the screen yet.
     pub fn waiting_text(&self) -> Option<&'static str> {
-        let is_long = self.wait_is_told_in()?.is_zero();
-        is_long.then_some(match self.frame() {
-            Some(_) => "drawing …, still the last scene",
-            None => "drawing …",
-        })
+        self.drawing.waiting_text()
     }
 
     /// What the status line says about a frame that is not final, such as `preview, rate 1`.
     pub fn preview_text(&self) -> Option<String> {
-        if let Some(text) = self.waiting_text() {
-            return Some(text.to_owned());
-        }
-        let preview = self.preview();
-        match (preview, self.drawing.refinement()) {
-            (Some(_), Some((_, done))) => Some(format!("refining {:.0} %", done * 100.0)),
-            (Some(quality), None) => Some(format!("preview, {quality}")),
-            (None, _) => None,
-        }
+        self.drawing.preview_text()
     }
 
     /// Whether a frame is quick to draw and waits for [`Viewer::draw_frame`](crate::viewer::Viewer::draw_frame).
@@ -92,27 +77,5 @@ impl Frames {
     /// Where legends lie in the window, in window pixels.
     pub fn legend_places(&self) -> Vec<PixelRect> {
         self.legends.placed.iter().map(|(rect, _)| *rect).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::viewer::frames::drawing::tests::Desk;
-
-    #[test]
-    fn scene_that_takes_long_is_told() {
-        let mut desk = Desk::new();
-        let first = desk.picture(4, [50.0, 50.0], 1.0);
-        desk.want(&first);
-        desk.work();
-        desk.want_another_scene();
-        let frames = Frames::new(desk.drawing);
-        assert_eq!(frames.wait_is_told_in(), Some(Duration::ZERO), "longer than {LONG:?}");
-        assert_eq!(
-            frames.preview_text().as_deref(),
-            Some("drawing …, still the last scene"),
-            "what is on the screen is another scene's"
-        );
     }
 }

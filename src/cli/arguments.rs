@@ -140,16 +140,21 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
             return Err(page.map_or_else(Failure::Input, Failure::Text));
         }
     }
+    let named = words.get(1).and_then(|word| word.to_str());
+    let command = named
+        .filter(|name| program.find_subcommand(name).is_some())
+        .map(str::to_owned);
+    let command = command.as_deref();
     let matches = program.args_override_self(repeated).try_get_matches_from(words);
     let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
     let arguments = read.map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             Failure::Text(error.to_string())
         }
-        _ => Failure::Input(one_line(&error.to_string())),
+        _ => Failure::Input(one_line(&error.to_string(), command)),
     })?;
     match arguments.verb.sampling().and_then(SamplingOptions::refusal) {
-        Some(refusal) => Err(Failure::Input(one_line(&refusal))),
+        Some(refusal) => Err(Failure::Input(one_line(&refusal, command))),
         None => Ok(arguments),
     }
 }
@@ -290,7 +295,6 @@ mod tests {
             "rasterscope sheet a.svg --sample-rate 1,4",
             "rasterscope writeup course",
             "rasterscope writeup thesis -o out",
-            "rasterscope rerun a.png",
             "rasterscope rerun a.png --check -o b.png",
             "rasterscope render a.svg -o b.png --size 5x5 --size 6x6",
             "rasterscope diff a.png",
@@ -339,8 +343,10 @@ mod tests {
     fn assert_at_fault(line: &str) {
         match parsed(line) {
             Err(Failure::Input(message)) => {
+                let command = line.split(' ').nth(1).filter(|word| *word != "a.svg").unwrap_or("view");
+                let help = format!("; see `rasterscope {command} --help`");
                 assert!(
-                    !message.contains('\n') && message.ends_with("--help`"),
+                    !message.contains('\n') && message.ends_with(&help) && !message.contains("to pass"),
                     "{line}: {message}"
                 );
             }

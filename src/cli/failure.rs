@@ -116,14 +116,18 @@ pub(super) fn print_error(line: &str) {
     });
 }
 
-/// What is wrong and how to find the cure, out of a message of several paragraphs.
-pub(super) fn one_line(message: &str) -> String {
+/// What is wrong and how to find the cure, out of a message of several paragraphs about a command.
+pub(super) fn one_line(message: &str, command: Option<&str>) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
     let usage = message.find("\n\nUsage:").unwrap_or(message.len());
     let hint = message.find("\n\nFor more information").unwrap_or(message.len());
     let words: Vec<&str> = message[..usage.min(hint)].split_whitespace().collect();
+    let words = words.join(" ");
+    // That an option may be meant as a path is said of every option that is not known, and is never so.
+    let words = words.split(" tip: to pass ").next().unwrap_or("");
+    let command = command.map_or_else(String::new, |command| format!("{command} "));
     format!(
-        "{}; see `rasterscope --help`",
-        words.join(" ").replace(" tip: ", "; tip: ")
+        "{}; see `rasterscope {command}--help`",
+        words.replace(" tip: ", "; tip: ")
     )
 }

@@ -30,6 +30,12 @@ struct Again {
 /// Draws, and compares or writes.
 pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
     let shot = options.shot.as_path();
+    if !options.check && options.output.is_none() {
+        return Err(Failure::input(format!(
+            "{}: what is to be done? --check compares it with what is drawn now, -o OUT.png writes that",
+            shot.display()
+        )));
+    }
     if let Some(output) = &options.output {
         name_for_png(output)?;
     }

@@ -9,7 +9,7 @@ pub(in crate::cli) struct RerunOptions {
     /// A PNG that this program wrote
     pub(in crate::cli) shot: PathBuf,
     /// Compare with the picture instead of writing a file
-    #[arg(long, required_unless_present = "output")]
+    #[arg(long)]
     pub(in crate::cli) check: bool,
     /// The PNG file to write
     #[arg(short, long, value_name = "OUT.png", conflicts_with = "check")]

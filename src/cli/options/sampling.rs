@@ -153,9 +153,9 @@ struct SamplingOnly {
 /// Reads options of sampling.
 pub(in crate::cli) fn sampling_of(words: impl Iterator<Item = String>) -> Result<SamplingOptions, String> {
     let read = SamplingOnly::try_parse_from(words);
-    let sampling = read.map_err(|error| one_line(&error.to_string()))?.sampling;
+    let sampling = read.map_err(|error| one_line(&error.to_string(), None))?.sampling;
     match sampling.refusal() {
-        Some(refusal) => Err(one_line(&refusal)),
+        Some(refusal) => Err(one_line(&refusal, None)),
         None => Ok(sampling),
     }
 }

@@ -18,6 +18,7 @@ use glam::DVec2;
 use super::ellipse::{KEPT, Quadratic, TO_PARTS};
 use super::sample_places::{LANES, Places, WeighSamples, rounded};
 use super::texel_blocks::{EndlessLevel, Line};
+use super::{MipLevel, Wrap};
 use crate::color::Premultiplied16;
 use crate::simd;
 
@@ -45,6 +46,16 @@ struct Samples<S: Simd> {
     /// A point amid them, and how many times as large an ellipse about it must be to hold those of all.
     middle: [f32; 2],
     reach: f32,
+}
+
+/// The first texels of samples that each read their own.
+struct Apart {
+    /// In the level, counted along its rows.
+    offsets: [i32; LANES],
+    /// What is added to them for the next column, and for the next row.
+    steps: [i32; 2],
+    /// The first and the last column, then row, of which all have a texel inside the level; counted from their first.
+    inside: [[i32; 2]; 2],
 }
 
 impl WeighSamples for EwaFilter<'_> {
@@ -105,6 +116,17 @@ impl EwaFilter<'_> {
         for at in found.as_flattened_mut() {
             *at = (*at * PARTS + 0.5).floor() / PARTS;
         }
+        if self.texels.wrap == Wrap::Repeat {
+            // In the second copy there is the same as in the first, which is read without looking what stands there.
+            for (lanes, side) in found
+                .iter_mut()
+                .zip(self.line.turned(self.texels.size()).map(f64::from))
+            {
+                for at in lanes {
+                    *at -= if *at < side { 0.0 } else { side };
+                }
+            }
+        }
         found
     }
 
@@ -122,6 +144,7 @@ impl EwaFilter<'_> {
             }
         }
         let [x, y] = parts.map(|lanes| f32x16::simd_from(simd, lanes));
+        let apart = Apart::new(self, &bases);
         let (mut total, mut sums) = (nothing, [nothing; CHANNELS]);
         let half = quadratic.half_height() + MARGIN;
         for row in near((-half).floor())..=near((1.0 + half).ceil()) {
@@ -131,11 +154,17 @@ impl EwaFilter<'_> {
             let half = most.max(nothing).sqrt() + MARGIN;
             let middle = x + nearest;
             let (left, right) = ((middle - half).reduce_min(), (middle + half).reduce_max());
-            for column in near(left.ceil())..=near(right.floor()) {
+            let columns = near(left.ceil())..=near(right.floor());
+            let are_inside = apart.are_inside(&columns, row);
+            for column in columns {
                 let beside = f32x16::splat(simd, column as f32) - x - nearest;
                 let weight = weight(simd, series, most - beside * beside);
                 total += weight;
-                let mut texels = self.each_texel(simd, &bases, [column, row]);
+                let mut texels = if are_inside {
+                    apart.texels(simd, self.texels.level, [column, row])
+                } else {
+                    self.each_texel(simd, &bases, [column, row])
+                };
                 for sum in &mut sums {
                     let channel: i32x16<S> = (texels & 0xFF).bitcast();
                     *sum = weight.mul_add(channel.to_float::<f32x16<S>>(), *sum);
@@ -150,8 +179,8 @@ impl EwaFilter<'_> {
         )
     }
 
-    /// The texels so far from some others.
-    #[inline(always)]
+    /// The texels so far from some others, of which some lie beyond the level.
+    #[inline(never)]
     fn each_texel<S: Simd>(&self, simd: S, bases: &[[i32; LANES]; 2], [column, row]: [i32; 2]) -> u32x16<S> {
         let EndlessLevel { level, wrap } = self.texels;
         let mut found = [0; LANES];
@@ -198,6 +227,47 @@ impl EwaFilter<'_> {
         }
         let factor = f32x16::splat(simd, f32::from(Premultiplied16::PER_BYTE)) / total;
         rounded(simd, sums, factor)
+    }
+}
+
+impl Apart {
+    #[inline(always)]
+    fn new(filter: &EwaFilter<'_>, bases: &[[i32; LANES]; 2]) -> Self {
+        let EwaFilter { texels, line, .. } = filter;
+        let steps = line.turned([1, texels.level.stride().cast_signed()]);
+        let mut offsets = [0; LANES];
+        for (offset, (x, y)) in offsets.iter_mut().zip(bases[0].iter().zip(&bases[1])) {
+            *offset = x.wrapping_mul(steps[0]).wrapping_add(y.wrapping_mul(steps[1]));
+        }
+        let size = line.turned(texels.size());
+        let mut inside = [[0; 2]; 2];
+        for ((inside, bases), side) in inside.iter_mut().zip(bases).zip(size) {
+            let (mut least, mut most) = (bases[0], bases[0]);
+            for base in bases {
+                (least, most) = (least.min(*base), most.max(*base));
+            }
+            *inside = [-least, side.cast_signed() - 1 - most];
+        }
+        Self { offsets, steps, inside }
+    }
+
+    /// Whether the texels of all samples in these columns of a row lie inside the level.
+    #[inline(always)]
+    fn are_inside(&self, columns: &std::ops::RangeInclusive<i32>, row: i32) -> bool {
+        let [across, down] = self.inside;
+        across[0] <= *columns.start() && *columns.end() <= across[1] && down[0] <= row && row <= down[1]
+    }
+
+    /// Those so far from the first ones, where they do.
+    #[inline(always)]
+    fn texels<S: Simd>(&self, simd: S, level: &MipLevel, [column, row]: [i32; 2]) -> u32x16<S> {
+        let beyond = column * self.steps[0] + row * self.steps[1];
+        let texels = level.texels();
+        let mut found = [0; LANES];
+        for (found, offset) in found.iter_mut().zip(&self.offsets) {
+            *found = u32::from_le_bytes(texels[(offset + beyond).cast_unsigned() as usize]);
+        }
+        u32x16::simd_from(simd, found)
     }
 }
 
@@ -284,7 +354,7 @@ fn narrow(at: f64) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Footprint, MipLevel, MipPyramid, Wrap};
+    use super::super::{Footprint, MipPyramid};
     use super::*;
 
     #[test]

@@ -19,6 +19,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x4, i32x8, u32x8};
 use glam::DVec2;
 
+use super::box_sums;
 use super::few_texels::FewTexels;
 use super::filter_plan::{PixelList, Plan};
 use super::fixed_point::REACH;
@@ -70,23 +71,29 @@ impl<'a> BoxFilter<'a> {
     /// The colours at some places; those of the lanes that repeat the first are any.
     pub(super) fn colors(&self, simd: Level, places: &Places) -> [Premultiplied16; LANES] {
         let mut out = [Premultiplied16::TRANSPARENT; LANES];
+        let taken = &mut out[..places.count.min(LANES)];
         if let Some(sums) = self.table.of_bytes() {
             dispatch!(simd, simd => simd.vectorize(
                 #[inline(always)]
                 || {
                     let means = Means::new(self, sums, places);
-                    for (lane, out) in out.iter_mut().enumerate().take(places.count) {
+                    for (lane, out) in taken.iter_mut().enumerate() {
                         *out = match means.of(simd, lane) {
                             Some(mean) => Premultiplied16(<[f32; 4]>::from(mean).map(whole)),
-                            None => self.anywhere(places, lane),
+                            None => self.anywhere(simd, places, lane),
                         };
                     }
                 },
             ));
         } else {
-            for (lane, out) in out.iter_mut().enumerate().take(places.count) {
-                *out = self.anywhere(places, lane);
-            }
+            dispatch!(simd, simd => simd.vectorize(
+                #[inline(always)]
+                || {
+                    for (lane, out) in taken.iter_mut().enumerate() {
+                        *out = self.anywhere(simd, places, lane);
+                    }
+                },
+            ));
         }
         out
     }
@@ -100,9 +107,12 @@ impl<'a> BoxFilter<'a> {
             }
         };
         let Some(numbers) = self.table.of_bytes() else {
-            return samples.each_of(plan, list, sums, |places, sum| {
-                (0..places.count).for_each(|lane| add(self.anywhere(places, lane), sum));
-            });
+            return dispatch!(simd, simd => simd.vectorize(
+                #[inline(always)]
+                || samples.each_of(plan, list, sums, |places, sum| {
+                    (0..places.count).for_each(|lane| add(self.anywhere(simd, places, lane), sum));
+                }),
+            ));
         };
         dispatch!(simd, simd => simd.vectorize(
             #[inline(always)]
@@ -115,10 +125,14 @@ impl<'a> BoxFilter<'a> {
         ));
     }
 
-    /// The colour at a place whose box may lie across a border.
+    /// The colour at a place whose box may lie across a border, of any table.
+    // Outlined: in the callers' loops it would not be inlined, and would lose the vector instructions.
     #[inline(never)]
-    fn anywhere(&self, places: &Places, lane: usize) -> Premultiplied16 {
-        self.table.mean(places.at(lane) + 0.5, &self.area, self.texels.wrap)
+    fn anywhere<S: Simd>(&self, simd: S, places: &Places, lane: usize) -> Premultiplied16 {
+        simd.vectorize(
+            #[inline(always)]
+            || box_sums::mean(simd, self.table, places.at(lane) + 0.5, &self.area, self.texels.wrap),
+        )
     }
 }
 
@@ -228,7 +242,7 @@ fn total<S: Simd>(
     for lane in 0..places.count.min(LANES) {
         match means.of(simd, lane) {
             Some(mean) => all += mean,
-            None => add(filter.anywhere(places, lane)),
+            None => add(filter.anywhere(simd, places, lane)),
         }
     }
     all.into()

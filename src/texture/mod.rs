@@ -9,6 +9,7 @@ mod bilinear;
 mod block_filter;
 mod block_weights;
 mod box_means;
+mod box_sums;
 mod course_sampler;
 mod cubic;
 mod decode;
@@ -22,6 +23,7 @@ mod fixed_point;
 mod footprint;
 mod level_choice;
 mod level_of_detail;
+mod light_bytes;
 mod nearest_sums;
 #[cfg(test)]
 mod oracle;

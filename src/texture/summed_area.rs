@@ -15,6 +15,7 @@
 use glam::DVec2;
 
 use super::fixed_point::REACH;
+use super::light_bytes::LightBytes;
 use super::pyramid_values::PyramidValues;
 use super::{MipLevel, PyramidFilter, TexelBox, Wrap};
 use crate::color::{Premultiplied16, ResolveSpace};
@@ -26,14 +27,18 @@ pub struct SummedAreaTable {
 }
 
 /// The numbers of a table, row by row: one row and one column more than texels; the first ones are nothing.
-enum Sums {
+pub(super) enum Sums {
     Bytes(Vec<[u32; 4]>),
-    /// In steps of one part in [`STEPS`], and how their means become texels.
-    Light(Vec<[f64; 4]>, PyramidValues),
+    Light(Box<SumsOfLight>),
 }
 
-/// What light, which is 0 to 1, is multiplied by to be whole numbers.
-const STEPS: f64 = 65_535.0;
+/// The numbers of a table of light, and how their means become texels.
+pub(super) struct SumsOfLight {
+    /// In steps of one part in [`SumsOfLight::STEPS`].
+    pub(super) sums: Vec<[f64; 4]>,
+    values: PyramidValues,
+    bytes: LightBytes,
+}
 
 /// What a sample read of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,14 +62,14 @@ pub struct BoxRead {
 
 /// A stretch of an axis inside a level, and how often it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Stretch {
-    from: f64,
-    to: f64,
-    times: f64,
+pub(super) struct Stretch {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) times: f64,
 }
 
 /// What a side of a box becomes: up to four stretches, those of no length at the end.
-type Stretches = [Stretch; 4];
+pub(super) type Stretches = [Stretch; 4];
 
 impl SummedAreaTable {
     /// The sums of a level in these values.
@@ -79,9 +84,13 @@ impl SummedAreaTable {
                 let values = PyramidValues::new(space, PyramidFilter::Box);
                 let numbers = summed(level, [0.0; 4], |sum, texel| {
                     let value = values.value(texel);
-                    std::array::from_fn(|i| sum[i] + (f64::from(value[i]) * STEPS).round())
+                    std::array::from_fn(|i| sum[i] + (f64::from(value[i]) * SumsOfLight::STEPS).round())
                 });
-                Sums::Light(numbers, values)
+                Sums::Light(Box::new(SumsOfLight {
+                    sums: numbers,
+                    bytes: LightBytes::new(&values),
+                    values,
+                }))
             }
         };
         Self { size, sums }
@@ -92,8 +101,14 @@ impl SummedAreaTable {
     pub(super) fn of_bytes(&self) -> Option<&[[u32; 4]]> {
         match &self.sums {
             Sums::Bytes(sums) => Some(sums),
-            Sums::Light(..) => None,
+            Sums::Light(_) => None,
         }
+    }
+
+    /// The numbers.
+    #[inline]
+    pub(super) fn sums(&self) -> &Sums {
+        &self.sums
     }
 
     /// Width and height in texels.
@@ -102,7 +117,9 @@ impl SummedAreaTable {
         self.size
     }
 
-    /// The mean of a box anywhere about a point, both in texels from the corner of the first one.
+    /// The mean of a box anywhere about a point, both in texels from the corner of the first one; what `box_sums` finds in
+    /// vectors.
+    #[cfg(test)]
     pub(super) fn mean(&self, at: DVec2, area: &TexelBox, wrap: Wrap) -> Premultiplied16 {
         let (sum, texels) = self.wrapped(at, area, wrap);
         self.color(sum, texels)
@@ -144,7 +161,7 @@ impl SummedAreaTable {
 
     /// Whether light is summed, instead of stored values.
     fn is_of_light(&self) -> bool {
-        matches!(self.sums, Sums::Light(..))
+        matches!(self.sums, Sums::Light(_))
     }
 
     /// The sum over a box anywhere, and its area.
@@ -161,7 +178,6 @@ impl SummedAreaTable {
                 sum = std::array::from_fn(|i| sum[i] + part[i] * times);
             }
         }
-        let length = |stretches: &Stretches| -> f64 { stretches.iter().map(Stretch::length).sum() };
         (sum, length(&columns) * length(&rows))
     }
 
@@ -188,7 +204,7 @@ impl SummedAreaTable {
         let start = row as usize * stride + column as usize;
         let number = |at: usize| match &self.sums {
             Sums::Bytes(sums) => sums[at].map(f64::from),
-            Sums::Light(sums, _) => sums[at],
+            Sums::Light(light) => light.sums[at],
         };
         let upper = [number(start), number(start + 1)];
         let lower = [number(start + stride), number(start + stride + 1)];
@@ -201,13 +217,39 @@ impl SummedAreaTable {
 
     /// The colour of a mean.
     #[inline]
-    fn color(&self, sum: [f64; 4], area: f64) -> Premultiplied16 {
-        if let Sums::Light(_, values) = &self.sums {
-            let mean = sum.map(|sum| narrow(sum / area / STEPS));
-            return Premultiplied16::from_bytes(values.texel(mean));
+    pub(super) fn color(&self, sum: [f64; 4], area: f64) -> Premultiplied16 {
+        if let Sums::Light(light) = &self.sums {
+            return light.texel(SumsOfLight::mean(sum, area));
         }
         let per_byte = f64::from(Premultiplied16::PER_BYTE) / area;
         Premultiplied16(sum.map(|sum| channel(sum * per_byte)))
+    }
+}
+
+impl SumsOfLight {
+    /// What light, which is 0 to 1, is multiplied by to be whole numbers.
+    pub(super) const STEPS: f64 = 65_535.0;
+
+    /// The mean light of a box.
+    pub(super) fn mean(sum: [f64; 4], area: f64) -> [f32; 4] {
+        sum.map(|sum| narrow(sum / area / Self::STEPS))
+    }
+
+    /// The colour of such a mean.
+    #[inline]
+    pub(super) fn color(&self, mean: [f32; 4]) -> Premultiplied16 {
+        let [r, g, b, alpha] = mean;
+        if LightBytes::is_opaque(alpha) {
+            let [r, g, b] = [r, g, b].map(|channel| self.bytes.byte(channel));
+            return Premultiplied16::from_bytes([r, g, b, u8::MAX]);
+        }
+        self.texel(mean)
+    }
+
+    /// The same by its definition.
+    #[inline(never)]
+    fn texel(&self, mean: [f32; 4]) -> Premultiplied16 {
+        Premultiplied16::from_bytes(self.values.texel(mean))
     }
 }
 
@@ -244,8 +286,14 @@ fn summed<T: Copy + std::ops::Add<Output = T>>(
     sums
 }
 
+/// The texels of a side.
+#[inline]
+pub(super) fn length(stretches: &Stretches) -> f64 {
+    stretches.iter().map(Stretch::length).sum()
+}
+
 /// Where the side of a box lies in a row of `side` texels, and how often each stretch of it counts.
-fn stretches(wrap: Wrap, side: f64, at: f64, half: f64) -> Stretches {
+pub(super) fn stretches(wrap: Wrap, side: f64, at: f64, half: f64) -> Stretches {
     let mut found = [Stretch::NONE; 4];
     let mut count = 0;
     let mut add = |from: f64, to: f64, times: f64| {
@@ -291,7 +339,7 @@ fn stretches(wrap: Wrap, side: f64, at: f64, half: f64) -> Stretches {
 
 /// The texels of a row under some stretches, and their parts of them.
 fn parts(stretches: &Stretches) -> Vec<(u32, f64)> {
-    let total: f64 = stretches.iter().map(Stretch::length).sum();
+    let total = length(stretches);
     let mut found: Vec<(u32, f64)> = Vec::new();
     for Stretch { from, to, times } in stretches.iter().filter(|stretch| stretch.times > 0.0) {
         for texel in whole(*from)..whole(to.ceil()) {

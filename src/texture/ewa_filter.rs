@@ -381,20 +381,40 @@ mod tests {
                 line,
                 is_opaque,
             };
-            let mut places = Places::one(DVec2::ZERO);
-            places.count = LANES;
-            for lane in 0..LANES {
-                let i = lane as f64;
-                (places.x[lane], places.y[lane]) = (i * 2.9 - 5.3, (i * 7.0) % 23.0 - 2.1);
-            }
-            for (name, level) in simd::tested() {
-                let mut together = [Premultiplied16::TRANSPARENT; LANES];
-                dispatch!(level, simd => filter.colors(simd, &places, &mut together));
-                for (lane, together) in together.iter().enumerate() {
-                    let mut alone = [Premultiplied16::TRANSPARENT];
-                    dispatch!(level, simd => filter.colors(simd, &places.alone(lane), &mut alone));
-                    assert_eq!(alone[0], *together, "{wrap:?}, sample {lane}, {name}");
+            // Some beyond the level, then all inside.
+            let size = filter.texels.size().map(f64::from);
+            for is_inside in [false, true] {
+                let mut places = Places::one(DVec2::ZERO);
+                places.count = LANES;
+                for lane in 0..LANES {
+                    let i = lane as f64;
+                    let parts = DVec2::new(i, i * 7.0 % 16.0) * 0.03 + 0.28;
+                    (places.x[lane], places.y[lane]) = if is_inside {
+                        (size[0] * parts.x, size[1] * parts.y)
+                    } else {
+                        (i * 2.9 - 5.3, (i * 7.0) % 23.0 - 2.1)
+                    };
                 }
+                compare(&filter, &places, is_inside);
+            }
+        }
+    }
+
+    /// Weighs samples together and each alone.
+    fn compare(filter: &EwaFilter<'_>, places: &Places, is_inside: bool) {
+        let bases = filter
+            .rounded_places(places)
+            .map(|lanes| lanes.map(|at| near(narrow(at.floor()))));
+        let found = Apart::new(filter, &bases).are_inside(&(-1..=1), 1);
+        assert_eq!(found, is_inside, "where all texels lie: {places:?}");
+        for (name, level) in simd::tested() {
+            let mut together = [Premultiplied16::TRANSPARENT; LANES];
+            dispatch!(level, simd => filter.colors(simd, places, &mut together));
+            for (lane, together) in together.iter().enumerate() {
+                let mut alone = [Premultiplied16::TRANSPARENT];
+                dispatch!(level, simd => filter.colors(simd, &places.alone(lane), &mut alone));
+                let wrap = filter.texels.wrap;
+                assert_eq!(alone[0], *together, "{wrap:?}, sample {lane}, {name}");
             }
         }
     }

@@ -20,6 +20,7 @@ mod few_texels;
 mod filter;
 mod filter_plan;
 mod fixed_point;
+mod folded_blocks;
 mod footprint;
 mod level_choice;
 mod level_of_detail;

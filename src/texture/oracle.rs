@@ -13,6 +13,7 @@ use glam::DVec2;
 
 use super::filter_plan::Plan;
 use super::sample_offsets::{Footing, Footings, Scale};
+use super::wrap::Endless;
 use super::{
     Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, Wrap,
 };
@@ -107,7 +108,7 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
     let mut sums = [0; 4];
     for (footing, total) in [(Some(&finer), total - part), (coarser.as_ref(), part)] {
         if let Some(footing) = footing {
-            add_block(footing, total, center, &samples, &mut sums);
+            add_block((footing, plan.wrap), total, center, &samples, &mut sums);
         }
     }
     let unit = f64::from(1 << scale.sample_bits);
@@ -115,15 +116,35 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
 }
 
 /// Adds the 4 x 4 texels under the pixel around `center`, weighed so that the weights sum to `total`.
-fn add_block(footing: &Footing<'_>, total: i32, center: DVec2, samples: &[[u32; 2]], sums: &mut [i32; 4]) {
+fn add_block(
+    (footing, wrap): (&Footing<'_>, Wrap),
+    total: i32,
+    center: DVec2,
+    samples: &[[u32; 2]],
+    sums: &mut [i32; 4],
+) {
     let one = 1 << footing.scale.bits;
     let level = &footing.level;
     let axes = [(&level.x, &footing.x), (&level.y, &footing.y)];
     let placed = axes.map(|(axis, offsets)| {
         let at = (axis.at_pivot + center.x * axis.right) + center.y * axis.down;
-        let at = (at.clamp(-2.0, axis.last + 2.0) * f64::from(one)).round_ties_even() as i32;
+        let at = match Endless::new(wrap, axis.last, PixelSampling::Bilinear) {
+            None => at.clamp(-2.0, axis.last + 2.0),
+            Some(Endless { period, inverse, .. }) => {
+                let from_corner = at + 0.5;
+                (from_corner - (from_corner * inverse).floor() * period)
+                    .max(0.0)
+                    .min(period)
+                    - 0.5
+            }
+        };
+        let at = (at * f64::from(one)).round_ties_even() as i32;
+        let first = (at + offsets.least).div_euclid(one);
+        if wrap != Wrap::Clamp {
+            return (first, at - first * one, 3 * one);
+        }
         let last = axis.last as i32;
-        let first = (at + offsets.least).div_euclid(one).clamp(0, last);
+        let first = first.clamp(0, last);
         (first, at - first * one, (last - first).min(3) * one)
     });
     let mut products = [[0_i64; 4]; 4];
@@ -147,7 +168,9 @@ fn add_block(footing: &Footing<'_>, total: i32, center: DVec2, samples: &[[u32; 
         let mut beyond = below - next;
         for c in 0..4 {
             let left = rounded(row[c + 1..].iter().sum()).min(beyond);
-            let texel = level.level.texel(placed[0].0 + c as i32, placed[1].0 + r as i32);
+            let texel = level
+                .level
+                .wrapped(wrap, [placed[0].0 + c as i32, placed[1].0 + r as i32]);
             for (sum, channel) in sums.iter_mut().zip(texel) {
                 *sum += i32::from(channel) * (beyond - left);
             }

@@ -3,6 +3,7 @@
 use super::PixelSampling;
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::fixed_point::{MASS, MASS_BITS};
+use super::wrap::Endless;
 
 /// The most samples along one side of a pixel.
 pub(super) const MAX_SIDE: usize = 16;
@@ -27,6 +28,8 @@ pub(super) struct Footing<'a> {
     pub(super) scale: Scale,
     pub(super) x: Offsets,
     pub(super) y: Offsets,
+    /// Both axes, where the texture goes on for ever.
+    pub(super) endless: [Option<Endless>; 2],
     /// From a sum of products to a weight.
     pub(super) per_product: f32,
     /// Whether one axis depends on the sample's column only, and the other on its row only.
@@ -78,23 +81,23 @@ impl Scale {
 
 impl<'a> Footings<'a> {
     /// Those of a plan; `None` where each sample must be filtered: where samples are too far apart, have
-    /// several taps, or read other texels than the four around them, be it across a border.
+    /// several taps, or read other texels than the four around them.
     pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<Self> {
-        if plan.pixel != PixelSampling::Bilinear || plan.reads_blocks() || plan.line.taps.count > 1 {
+        if plan.pixel != PixelSampling::Bilinear || plan.line.taps.count > 1 {
             return None;
         }
         Some(Self {
-            finer: Footing::new(&plan.finer, scale)?,
+            finer: Footing::new(plan, &plan.finer, scale)?,
             coarser: match &plan.coarser {
                 None => None,
-                Some(level) => Some(Footing::new(level, scale)?),
+                Some(level) => Some(Footing::new(plan, level, scale)?),
             },
         })
     }
 }
 
 impl<'a> Footing<'a> {
-    fn new(level: &GridLevel<'a>, scale: Scale) -> Option<Self> {
+    fn new(plan: &Plan<'a>, level: &GridLevel<'a>, scale: Scale) -> Option<Self> {
         let (x, y) = (Offsets::new(&level.x, scale)?, Offsets::new(&level.y, scale)?);
         let zero = |offsets: &[i16]| offsets.iter().all(|offset| *offset == 0);
         let lines = if zero(&x.rows) && zero(&y.columns) {
@@ -110,6 +113,7 @@ impl<'a> Footing<'a> {
             scale,
             x,
             y,
+            endless: [plan.endless(&level.x), plan.endless(&level.y)],
             per_product: (level.mass << scale.sample_bits) as f32 / MASS as f32 / (one * one),
             lines,
         })

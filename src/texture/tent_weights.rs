@@ -16,20 +16,22 @@
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
+use super::filter_plan::Axis;
 use super::sample_offsets::{Footing, Lines, Offsets, Scale, TEXELS};
 use super::texel_coordinates::Positions;
+use super::wrap::Endless;
 
 /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.
 const WHOLE: f32 = 8_388_608.0;
 const WHOLE_BITS: i32 = 0x007F_FFFF;
 
 /// Sums of products of tails; `0` stands for all of a sample, `k + 1` for its part beyond texel `k`. `[y][x]`.
-type Products<S> = [[<S as Simd>::i32s; 4]; 4];
+pub(super) type Products<S> = [[<S as Simd>::i32s; 4]; 4];
 
 /// Where pixels begin in a level, and the weights of the texels there.
 pub(super) struct Weighed<S: Simd> {
-    /// The first of the 4 x 4 texels.
-    pub(super) offsets: S::u32s,
+    /// Column and row of the first of the 4 x 4 texels; where a texture goes on for ever, perhaps beyond it.
+    pub(super) corners: [S::i32s; 2],
     /// In rows from the first texel.
     pub(super) weights: Products<S>,
 }
@@ -64,16 +66,14 @@ pub(super) fn weigh<S: Simd, const T: usize>(
     let (first_x, x) = place(
         simd,
         scale,
-        at.near(simd, &footing.level.x, scale.bits),
-        &footing.x,
-        footing.level.x.last,
+        at,
+        (&footing.level.x, &footing.x, footing.endless[0].as_ref()),
     );
     let (first_y, y) = place(
         simd,
         scale,
-        at.near(simd, &footing.level.y, scale.bits),
-        &footing.y,
-        footing.level.y.last,
+        at,
+        (&footing.level.y, &footing.y, footing.endless[1].as_ref()),
     );
     let lines = match footing.lines {
         Some(Lines::Upright) => Some((&footing.x.columns, &footing.y.rows)),
@@ -88,22 +88,34 @@ pub(super) fn weigh<S: Simd, const T: usize>(
         }
         _ => products::<S, T>(simd, footing, x, y, covered),
     };
-    let stride = S::i32s::splat(simd, footing.level.level.stride().cast_signed());
     Weighed {
-        offsets: (first_y * stride + first_x).bitcast(),
+        corners: [first_x, first_y],
         weights: differences::<S, T>(simd, products, footing.per_product, totals),
     }
 }
 
 /// The first texel that a pixel's samples read on an axis, and their place relative to it.
 #[inline(always)]
-fn place<S: Simd>(simd: S, scale: Scale, center: S::i32s, offsets: &Offsets, last: f64) -> (S::i32s, Place<S>) {
+fn place<S: Simd>(
+    simd: S,
+    scale: Scale,
+    at: &Positions<S>,
+    (axis, offsets, endless): (&Axis, &Offsets, Option<&Endless>),
+) -> (S::i32s, Place<S>) {
     let number = |value: i32| S::i32s::splat(simd, value);
-    let last = number(to_whole(last));
-    let first = ((center + number(offsets.least)) >> scale.bits)
-        .max(number(0))
-        .min(last);
-    let inside = (last - first).min(number(TEXELS.cast_signed() - 1)) << scale.bits;
+    let farthest = number(TEXELS.cast_signed() - 1);
+    let (center, first, inside) = if let Some(endless) = endless {
+        let center = at.near_endless(simd, axis, endless, scale.bits);
+        let first = (center + number(offsets.least)) >> scale.bits;
+        (center, first, farthest << scale.bits)
+    } else {
+        let center = at.near(simd, axis, scale.bits);
+        let last = number(to_whole(axis.last));
+        let first = ((center + number(offsets.least)) >> scale.bits)
+            .max(number(0))
+            .min(last);
+        (center, first, (last - first).min(farthest) << scale.bits)
+    };
     let place = Place {
         center: twice(simd, center - (first << scale.bits)),
         last: twice(simd, inside),

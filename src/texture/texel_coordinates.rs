@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use glam::DVec2;
 
 use super::filter_plan::Axis;
-use super::fixed_point::{REACH, TO_FIXED};
+use super::fixed_point::{FRACTION_BITS, REACH, TO_FIXED};
 use super::wrap::Endless;
 
 /// The most lanes of 32 bits that a vector has.
@@ -118,19 +118,31 @@ impl<S: Simd> Positions<S> {
     /// point; see `wrap::place`.
     #[inline(always)]
     pub(super) fn endless(&self, simd: S, axis: &Axis, endless: &Endless) -> S::i32s {
-        let half = self.endless_half(simd, axis, endless, 0);
-        half.narrow(self.endless_half(simd, axis, endless, 1))
+        self.in_period(simd, axis, endless, 1.5 * TO_FIXED)
+    }
+
+    /// The same with `bits` fractional bits, from where coordinates are counted from.
+    #[inline(always)]
+    pub(super) fn near_endless(&self, simd: S, axis: &Axis, endless: &Endless, bits: u32) -> S::i32s {
+        let from_corner = self.in_period(simd, axis, endless, 1.5 * (1_u64 << (52 - bits)) as f64);
+        from_corner - S::i32s::splat(simd, endless.fixed_centre >> (FRACTION_BITS - bits))
     }
 
     #[inline(always)]
-    fn endless_half(&self, simd: S, axis: &Axis, endless: &Endless, half: usize) -> S::i64s {
+    fn in_period(&self, simd: S, axis: &Axis, endless: &Endless, to_fixed: f64) -> S::i32s {
+        let half = self.endless_half(simd, axis, (endless, to_fixed), 0);
+        half.narrow(self.endless_half(simd, axis, (endless, to_fixed), 1))
+    }
+
+    #[inline(always)]
+    fn endless_half(&self, simd: S, axis: &Axis, (endless, to_fixed): (&Endless, f64), half: usize) -> S::i64s {
         let from_corner = self.at(simd, axis, half) + S::f64s::splat(simd, endless.first_centre);
         let periods = (from_corner * S::f64s::splat(simd, endless.inverse)).floor();
         let within = from_corner - periods * S::f64s::splat(simd, endless.period);
         let inside = within
             .max(S::f64s::splat(simd, 0.0))
             .min(S::f64s::splat(simd, endless.period));
-        (inside + S::f64s::splat(simd, 1.5 * TO_FIXED)).bitcast()
+        (inside + S::f64s::splat(simd, to_fixed)).bitcast()
     }
 
     #[inline(always)]

@@ -65,7 +65,7 @@ impl LightBytes {
         reason = "between nothing and the number of pieces"
     )]
     pub(super) fn byte(&self, light: f32) -> u8 {
-        let light = light.max(0.0).min(1.0);
+        let light = light.clamp(0.0, 1.0);
         let below = self.below[((light * PIECES as f32) as usize).min(PIECES)];
         below + u8::from(self.least[usize::from(below)] <= light)
     }

@@ -168,7 +168,7 @@ fn is_sheet(tag: &str) -> bool {
 }
 
 /// Where a block ends, whose opening brace is passed.
-fn block_end(block: &str) -> usize {
+pub(super) fn block_end(block: &str) -> usize {
     let mut depth = 1;
     let end = block.bytes().position(|byte| {
         match byte {

@@ -1,11 +1,13 @@
 //! Colours that nobody understands. By CSS they have no effect, and what an attribute, another rule or the element around says
-//! counts; usvg takes black. So their names are changed in the text that usvg reads.
+//! counts; usvg takes black. So their names are changed in the text that usvg reads. Selectors that simplecss passes over are
+//! told.
 
 use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
 use super::values;
 use crate::scene::report::quote;
+use crate::scene::substitutes::block_end;
 
 /// Put before a name to make it one of nothing.
 pub(super) const UNREAD: &str = "unread-";
@@ -60,6 +62,82 @@ pub(super) fn names_in_sheet(text: &str, sheet: Node<'_, '_>) -> Vec<(usize, Str
     found
 }
 
+/// What select elements of a drawing that does not change, and are passed over with their rules.
+const SELECTORS: [&str; 15] = [
+    "root",
+    "not",
+    "is",
+    "where",
+    "has",
+    "empty",
+    "last-child",
+    "only-child",
+    "nth-child",
+    "nth-last-child",
+    "first-of-type",
+    "last-of-type",
+    "only-of-type",
+    "nth-of-type",
+    "nth-last-of-type",
+];
+
+/// What is to be said of rules of a style sheet that are passed over because of their selectors.
+pub(super) fn selectors_in_vain(css: &str) -> Vec<String> {
+    let css = without_comments(css);
+    let mut found = Vec::new();
+    let mut rest = css.as_str();
+    while let Some((selectors, block)) = rest.split_once('{') {
+        let (body, after) = block.split_at(block_end(block));
+        rest = after.strip_prefix('}').unwrap_or("");
+        let selectors = selectors.rsplit([';', '}']).next().unwrap_or("");
+        // Custom properties of the root are read, and then have other names.
+        let is_empty = body
+            .split(';')
+            .all(|part| part.trim().is_empty() || part.trim().starts_with("x-"));
+        if !selectors.trim_start().starts_with('@') && !is_empty {
+            found.extend(unread_selector(selectors));
+        }
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// What is said of the first selector of a list that is passed over.
+fn unread_selector(selectors: &str) -> Option<String> {
+    let mut depth = 0;
+    let sign = selectors.char_indices().find_map(|(at, sign)| {
+        match sign {
+            '[' | '(' => depth += 1,
+            ']' | ')' => depth -= 1,
+            _ => {}
+        }
+        let rest = &selectors[at + sign.len_utf8()..];
+        match sign {
+            '~' if depth == 0 => Some("~"),
+            ':' if depth == 0 => {
+                let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+                let name = &rest[..end.unwrap_or(rest.len())];
+                SELECTORS.contains(&name).then(|| &selectors[at..=at + name.len()])
+            }
+            _ => None,
+        }
+    })?;
+    Some(format!(
+        "the selector \"{}\" is not understood ({sign}); its rule has no effect",
+        quote(selectors.trim())
+    ))
+}
+
+/// A style sheet without its comments.
+fn without_comments(css: &str) -> String {
+    let mut pieces = css.split("/*");
+    let first = pieces.next().unwrap_or("").to_owned();
+    pieces.fold(first, |all, piece| {
+        all + piece.split_once("*/").map_or("", |(_, after)| after)
+    })
+}
+
 /// What is said of a value without a meaning.
 pub(super) fn without_effect(name: &str, value: &str) -> String {
     format!("{name}=\"{}\" is not understood and has no effect", quote(value))
@@ -76,4 +154,36 @@ fn is_nonsense(name: &str, value: &str) -> bool {
 /// How far `part` is from the start of the text that it is of.
 fn offset(text: &str, part: &str) -> usize {
     part.as_ptr().addr().saturating_sub(text.as_ptr().addr())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn selectors_that_are_passed_over_are_told_once() {
+        let css = "/* a:not(b) { */ a:not(.b) { fill: red } g > :last-child, b { x: 1 } a ~ b { y: 2 } a:not(.b) { fill: red }";
+        let told = selectors_in_vain(css);
+        assert_eq!(told.len(), 3, "{told:?}");
+        assert!(
+            told.iter()
+                .any(|line| line.contains("\"a:not(.b)\" is not understood (:not)")),
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn selectors_that_are_read_or_select_nothing_are_not_told() {
+        for css in [
+            "a:hover, b:first-child, :lang(en) { fill: red }",
+            "[a~=b] { fill: red } [href='x:not(y)'] { fill: red }",
+            ":root { x-c: red; }",
+            "@media (hover) { a:not(b) { fill: red } } text::selection { fill: red }",
+            "a:not(b) {}",
+            "a:not(b",
+            "{ }}{",
+        ] {
+            assert_eq!(selectors_in_vain(css), [""; 0], "{css}");
+        }
+    }
 }

@@ -259,6 +259,10 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             self.edits.insert(at, nonsense::UNREAD.to_owned());
         }
         if node.tag_name().name() == "style" {
+            let css: String = node.children().filter_map(|part| part.text()).collect();
+            for message in nonsense::selectors_in_vain(&css) {
+                self.listener.warn(node, message);
+            }
             for (at, message) in nonsense::names_in_sheet(self.text, node) {
                 self.edits.insert(at, nonsense::UNREAD.to_owned());
                 self.listener.warn(node, message);

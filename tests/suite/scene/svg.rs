@@ -327,6 +327,10 @@ fn svg_nonsense_is_ignored_with_a_warning() {
             "stroke=\"reddish\" is not understood and has no effect",
         ),
         (
+            "<style>rect:not(.a) { fill: red }</style><rect width='1' height='1'/>",
+            "the selector \"rect:not(.a)\" is not understood (:not); its rule has no effect",
+        ),
+        (
             "<rect width='1' height='1' x='left'/>",
             "x=\"left\" is not understood and has no effect",
         ),

@@ -41,19 +41,28 @@ struct Line<S: Simd> {
 }
 
 impl<S: Simd> Folded<S> {
+    /// Of a texture that ends, in which all blocks lie.
+    #[inline(always)]
+    pub(super) fn inside(simd: S, footing: &Footing<'_>, Weighed { corners, weights }: Weighed<S>) -> Self {
+        let stride = S::i32s::splat(simd, footing.level.level.stride().cast_signed());
+        let [left, top] = corners;
+        Self {
+            offsets: (top * stride + left).bitcast(),
+            weights,
+            corners,
+            beyond: 0,
+        }
+    }
+
+    /// Of one that goes on for ever.
     #[inline(always)]
     pub(super) fn new(simd: S, footing: &Footing<'_>, Weighed { corners, weights }: Weighed<S>) -> Self {
+        let [Some(right), Some(down)] = &footing.endless else {
+            return Self::inside(simd, footing, Weighed { corners, weights });
+        };
         let level = footing.level.level;
         let stride = S::i32s::splat(simd, level.stride().cast_signed());
         let [left, top] = corners;
-        let [Some(right), Some(down)] = &footing.endless else {
-            return Self {
-                offsets: (top * stride + left).bitcast(),
-                weights,
-                corners,
-                beyond: 0,
-            };
-        };
         let x = Line::new(simd, (right, level.width()), left);
         let y = Line::new(simd, (down, level.height()), top);
         let is_inside = x.is_inside & y.is_inside;

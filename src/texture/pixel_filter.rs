@@ -24,7 +24,7 @@ use crate::color::Premultiplied16;
 use crate::simd::Level;
 
 /// Where a vector of pixels reads one level.
-struct Blocks<S: Simd> {
+struct Blocks<S: Simd, const ENDLESS: bool> {
     /// The first of the 4 x 4 texels of each pixel.
     offsets: S::u32s,
     /// The weights of 2 x 2 texels as [`Spread::columns`] takes them, for the first and the second half of the lanes: at
@@ -63,7 +63,10 @@ pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>,
     }
     let samples = Samples { plan, scale, list };
     match (Footings::of_plan(plan, scale), plan.block()) {
-        (Some(footings), _) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
+        (Some(footings), _) if plan.wrap == Wrap::Clamp => {
+            dispatch!(level, simd => sum_texels::<_, false>(simd, plan, &footings, list, sums));
+        }
+        (Some(footings), _) => dispatch!(level, simd => sum_texels::<_, true>(simd, plan, &footings, list, sums)),
         (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, &weights, sums)),
         (None, None) if taps == 1 => dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums)),
         (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
@@ -256,9 +259,9 @@ fn point_at([left, top]: [u16; 2], [x, y]: [u16; 2]) -> [u16; 2] {
     [left.wrapping_add(x), top.wrapping_add(y)]
 }
 
-/// Weighs the texels below every pixel.
+/// Weighs the texels below every pixel, of a texture that ends or goes on for ever.
 #[inline(always)]
-fn sum_texels<S: Simd>(
+fn sum_texels<S: Simd, const ENDLESS: bool>(
     simd: S,
     plan: &Plan<'_>,
     Footings { finer, coarser }: &Footings<'_>,
@@ -280,10 +283,13 @@ fn sum_texels<S: Simd>(
         let part = coarser.as_ref().map_or(number(0), |coarser| {
             (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS
         });
-        let fine = Blocks::outlined(simd, finer, &at, covered, total - part);
-        let coarse = coarser
-            .as_ref()
-            .map(|coarser| (Blocks::outlined(simd, coarser, &at, covered, part), coarser));
+        let fine = Blocks::<S, ENDLESS>::outlined(simd, finer, &at, covered, total - part);
+        let coarse = coarser.as_ref().map(|coarser| {
+            (
+                Blocks::<S, ENDLESS>::outlined(simd, coarser, &at, covered, part),
+                coarser,
+            )
+        });
         for (lane, sum) in sums.iter_mut().enumerate() {
             let mut channels = fine.sum(simd, spread, (finer, plan.wrap), lane);
             if let Some((coarse, coarser)) = &coarse {
@@ -321,7 +327,7 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
     (Covered::Some(vector(&low), vector(&high)), vector(&counts).bitcast())
 }
 
-impl<S: Simd> Blocks<S> {
+impl<S: Simd, const ENDLESS: bool> Blocks<S, ENDLESS> {
     /// [`Blocks::new`], compiled once for the two levels.
     #[inline(never)]
     fn outlined(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: Covered<S>, total: S::i32s) -> Self {
@@ -334,16 +340,20 @@ impl<S: Simd> Blocks<S> {
     #[inline(always)]
     fn new(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: Covered<S>, total: S::i32s) -> Self {
         let weighed = if footing.is_narrow() {
-            weigh::<S, 2>(simd, footing, at, covered, total)
+            weigh::<S, 2, ENDLESS>(simd, footing, at, covered, total)
         } else {
-            weigh::<S, 3>(simd, footing, at, covered, total)
+            weigh::<S, 3, ENDLESS>(simd, footing, at, covered, total)
         };
         let Folded {
             offsets,
             weights,
             corners,
             beyond,
-        } = Folded::new(simd, footing, weighed);
+        } = if ENDLESS {
+            Folded::new(simd, footing, weighed)
+        } else {
+            Folded::inside(simd, footing, weighed)
+        };
         let both = |row: usize, column: usize| weights[row][column] | weights[row + 1][column] << 16;
         let quarter =
             |row: usize, column: usize| simd_channels::in_columns::<S>(both(row, column), both(row, column + 1));
@@ -359,7 +369,7 @@ impl<S: Simd> Blocks<S> {
     #[inline(always)]
     fn sum(&self, simd: S, spread: Spread<S>, (footing, wrap): (&Footing<'_>, Wrap), lane: usize) -> i32x8<S> {
         let level = footing.level.level;
-        let rows = if self.beyond >> lane & 1 == 0 {
+        let rows = if !ENDLESS || self.beyond >> lane & 1 == 0 {
             rows::<S, LARGE>(simd, level, self.offsets.as_slice()[lane] as usize)
         } else {
             let corner = self.corners.each_ref().map(|corners| corners.as_slice()[lane]);

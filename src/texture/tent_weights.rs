@@ -55,7 +55,7 @@ struct Place<S: Simd> {
 
 /// Weights with the sum `totals`, for `T + 2` texels in each direction; the others are zero.
 #[inline(always)]
-pub(super) fn weigh<S: Simd, const T: usize>(
+pub(super) fn weigh<S: Simd, const T: usize, const ENDLESS: bool>(
     simd: S,
     footing: &Footing<'_>,
     at: &Positions<S>,
@@ -63,18 +63,9 @@ pub(super) fn weigh<S: Simd, const T: usize>(
     totals: S::i32s,
 ) -> Weighed<S> {
     let scale = footing.scale;
-    let (first_x, x) = place(
-        simd,
-        scale,
-        at,
-        (&footing.level.x, &footing.x, footing.endless[0].as_ref()),
-    );
-    let (first_y, y) = place(
-        simd,
-        scale,
-        at,
-        (&footing.level.y, &footing.y, footing.endless[1].as_ref()),
-    );
+    let endless = |axis: usize| footing.endless[axis].as_ref().filter(|_| ENDLESS);
+    let (first_x, x) = place(simd, scale, at, (&footing.level.x, &footing.x, endless(0)));
+    let (first_y, y) = place(simd, scale, at, (&footing.level.y, &footing.y, endless(1)));
     let lines = match footing.lines {
         Some(Lines::Upright) => Some((&footing.x.columns, &footing.y.rows)),
         Some(Lines::Turned) => Some((&footing.x.rows, &footing.y.columns)),

@@ -125,7 +125,7 @@ impl SummedAreaTable {
         self.color(sum, texels)
     }
 
-    /// What [`SummedAreaTable::mean`] reads.
+    /// What the mean of a box anywhere about a point is made of.
     pub(super) fn read(&self, at: DVec2, area: &TexelBox, wrap: Wrap) -> BoxRead {
         let half = area.sides * 0.5;
         let (from, to) = (at - half, at + half);

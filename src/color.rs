@@ -26,7 +26,7 @@ pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
-pub(crate) use value_spread::ValueSpread;
+pub(crate) use value_spread::{ValueLimits, ValueSpread};
 pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

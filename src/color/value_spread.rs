@@ -8,7 +8,8 @@
 //!          +------m------ value  which is no more than f(m + that / f'(m)).
 //! ```
 //!
-//! Samples are rounded by half a unit, which moves both ends by as much. As stored values the ends lie close together, and bytes
+//! Samples are rounded by half a unit, which moves both ends by as much; where colours are painted over them, and the outcome is
+//! rounded again, by more. As stored values the ends lie close together, and bytes
 //! are rounded from stored values: nearly always both ends are rounded to one byte, and then the mean light is, too. Elsewhere
 //! somebody has to look at the values themselves. The mean of what is stored lies between such ends as well; there is nothing
 //! between these but the rounding.
@@ -30,11 +31,10 @@ const BEND: f64 = 0.040_45 * ONE;
 const SLOPE: f64 = 1.0 / (ONE * 1.055);
 const OFFSET: f64 = 0.055 / 1.055;
 
-/// How far a rounded value may be from what it was, with what the curve is off where it bends and light is rounded to whole
-/// numbers: those are less than a tenth, even in the dark.
-const ROUNDED: f64 = 0.6;
-/// How far the mean of rounded values may be from that of the values; a little more than half a unit, since planes are rounded.
-const HALF: f64 = 0.51;
+/// What the curve is off where it bends and light is rounded to whole numbers, even in the dark.
+const OF_LIGHT: f64 = 0.1;
+/// Planes are rounded, too.
+const OF_PLANES: f64 = 0.01;
 
 /// Values may lie so far out of range: planes are rounded.
 const SLACK: f64 = 1e-3;
@@ -46,6 +46,24 @@ pub(crate) struct ValueSpread<S: Simd> {
     pub(crate) mean: f64x8<S>,
     /// No value is farther away.
     pub(crate) reach: f64,
+    pub(crate) limits: ValueLimits,
+}
+
+/// What is known of the values that samples store, in units of [`Premultiplied16`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ValueLimits {
+    /// Those that would lie outside are clamped.
+    pub(crate) range: [f64; 2],
+    /// How far rounding may have moved a value.
+    pub(crate) rounded: f64,
+}
+
+impl ValueLimits {
+    /// Of values that are rounded once.
+    pub(crate) const STORED: Self = Self {
+        range: [0.0, ONE],
+        rounded: 0.5,
+    };
 }
 
 impl<S: Simd> ValueSpread<S> {
@@ -53,20 +71,22 @@ impl<S: Simd> ValueSpread<S> {
     /// squares of how far the values are from their mean.
     #[inline(always)]
     pub(crate) fn bytes_of_light(self, simd: S, squares: f64x8<S>) -> (u64x8<S>, u64) {
-        let Self { mean, reach } = self;
+        let Self { mean, reach, limits } = self;
+        let off = limits.rounded + OF_LIGHT;
         let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
         let step = f64x8::splat(simd, SLOPE) / base;
         // Half of the second derivative, at its greatest, over the first.
-        let bent = squares * (step * (reach * step + 1.0)) * (1.4 / 2.0);
-        let is_smooth = (mean - BEND).abs().simd_gt(f64x8::splat(simd, reach + 2.0 * ROUNDED));
-        let (bytes, certain) = self.between(simd, mean - ROUNDED, mean + ROUNDED + bent);
+        let bent = squares * (step * ((reach + off) * step + 1.0)) * (1.4 / 2.0);
+        let is_smooth = (mean - BEND).abs().simd_gt(f64x8::splat(simd, reach + 2.0 * off));
+        let (bytes, certain) = self.between(simd, mean - off, mean + off + bent);
         (bytes, certain & is_smooth.to_bitmask())
     }
 
     /// The bytes of the mean of what is stored, rounded to nearest, and a bit for each pixel of which that is certain.
     #[inline(always)]
     pub(crate) fn bytes(self, simd: S) -> (u64x8<S>, u64) {
-        self.between(simd, self.mean - HALF, self.mean + HALF)
+        let off = self.limits.rounded + OF_PLANES;
+        self.between(simd, self.mean - off, self.mean + off)
     }
 
     /// The bytes that lie nearest to means from `least` to `most`, and where that is one and no value is clamped.
@@ -74,13 +94,14 @@ impl<S: Simd> ValueSpread<S> {
     fn between(self, simd: S, least: f64x8<S>, most: f64x8<S>) -> (u64x8<S>, u64) {
         // Where whole numbers stand in the lower bits.
         const WHOLE: f64 = (1_u64 << 52) as f64;
-        let Self { mean, reach } = self;
+        let Self { mean, reach, limits } = self;
+        let [least_value, most_value] = limits.range;
         // Half a byte more, so that cutting off rounds.
         let low = ((least + 128.0) * (1.0 / 256.0)).floor();
         let high = ((most + 128.0) * (1.0 / 256.0)).floor();
         let is_one = low.simd_eq(high);
-        let in_range =
-            mean.simd_gt(f64x8::splat(simd, reach - SLACK)) & mean.simd_lt(f64x8::splat(simd, ONE + SLACK - reach));
+        let in_range = mean.simd_gt(f64x8::splat(simd, least_value + (reach - SLACK)))
+            & mean.simd_lt(f64x8::splat(simd, most_value + SLACK - reach));
         let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
         (bytes, (is_one & in_range).to_bitmask())
     }
@@ -135,7 +156,7 @@ mod tests {
             for (name, level) in simd::tested() {
                 let found = dispatch!(level, simd => {
                     let number = |value| f64x8::splat(simd, value);
-                    let spread = ValueSpread { mean: number(mean), reach };
+                    let spread = ValueSpread { mean: number(mean), reach, limits: ValueLimits::STORED };
                     let light = spread.bytes_of_light(simd, number(squares));
                     [light, spread.bytes(simd)].map(|(bytes, mask)| (bytes.to_array(), mask))
                 });

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::color::ResolveSpace;
+use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::positions::Position;
@@ -49,6 +49,8 @@ pub(crate) struct PlacedPixels<'p> {
     pub(crate) count: usize,
     /// Where those of each pixel lie, one pixel after the other; only once where that is the same in all.
     pub(crate) inside: &'p [Position],
+    /// Flat colours that are painted over them, in that order.
+    pub(crate) tints: &'p [Premultiplied16],
 }
 
 /// Some samples of some pixels.

@@ -70,8 +70,8 @@ pub(super) trait Shade {
         false
     }
 
-    /// The pixels that all of their samples make, where there is a way that is shorter than [`Shade::points`] of each; whether
-    /// there is one. The triangle must be opaque.
+    /// The pixels that all of their samples make with what is painted over them, where there is a way that is shorter than
+    /// [`Shade::points`] of each; whether there is one. The triangle must be opaque.
     fn placed_pixels(&self, _: PlacedPixels<'_>, _: &SampleMean, _: &mut [u32]) -> bool {
         false
     }

@@ -235,11 +235,14 @@ impl<'a> Shader<'a> {
         true
     }
 
-    /// The pixels that all of their samples make, where there is a way that is shorter than [`Shader::points`] of each; whether
-    /// there is one. The triangle must be opaque.
+    /// The pixels that all of their samples make with what is painted over them, where there is a way that is shorter than
+    /// [`Shader::points`] of each; whether there is one. The triangle must be opaque.
     pub(crate) fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
         if self.centres.is_none() {
             return ask!(&self.any, AnyShader, shader => shader.placed_pixels(pixels, mean, values));
+        }
+        if !pixels.tints.is_empty() {
+            return false;
         }
         // Samples that are all alike are their pixel, whatever is averaged.
         self.pixels(pixels.pixels, values);

@@ -1,4 +1,5 @@
-//! Pixels of interpolated colours, from the places of all their samples: the same as by shading each sample for itself.
+//! Pixels of interpolated colours, from the places of all their samples: the same as by shading each sample for itself and painting
+//! flat colours over it, where there are some.
 //!
 //! A pixel nearly always follows from the colour at the middle of its samples and from how far these are spread around it
 //! ([`crate::color::ValueSpread`]). What that leaves open is shaded sample by sample.
@@ -11,15 +12,15 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f64x8, u64x8};
 
-use crate::color::{Premultiplied16, SampleMean, ValueSpread};
+use crate::color::{Premultiplied16, SampleMean, ValueLimits, ValueSpread};
 use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
-use crate::raster::shading::context::PlacedPixels;
-use crate::raster::shading::kernel::{LANES, columns_and_rows, first_sample, low_word};
+use crate::raster::shading::context::{Pixels, PlacedPixels};
+use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word};
 use crate::raster::shading::vertex_kernel::point_kernel;
+use crate::rules::Rules;
 use crate::simd;
-use crate::texture::SampleGrid;
 
 /// Samples of a pixel that take little memory, and as many as there may be.
 const FEW: usize = 16;
@@ -33,6 +34,13 @@ struct PlaceSpreads {
     squares: [[f64; LANES]; 3],
 }
 
+/// Planes through what samples show once flat colours are painted over them.
+struct TintedPlanes {
+    /// In units of [`Premultiplied16`].
+    planes: Planes<3>,
+    limits: [ValueLimits; 3],
+}
+
 /// The pixels of opaque colours, whose planes are in units of [`Premultiplied16`].
 pub(super) fn means(planes: &Planes<3>, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) {
     dispatch!(simd::level(), simd => means_with(simd, planes, pixels, mean, values));
@@ -43,6 +51,7 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
     let grid = placed.pixels.grid;
     let (first, side) = (first_sample(grid), f64::from(grid.side));
     let is_linear = matches!(mean, SampleMean::Linear(_));
+    let TintedPlanes { planes: shown, limits } = TintedPlanes::new(planes, placed.tints);
     let mut spread = PlaceSpreads::of_all(placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
         let at = block * LANES;
@@ -57,23 +66,25 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
             }
         }
         let [columns, rows] = columns_and_rows(simd, places);
-        let right = columns * side + (first[0] - planes.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
-        let down = rows * side + (first[1] - planes.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
+        let right = columns * side + (first[0] - shown.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
+        let down = rows * side + (first[1] - shown.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
         let (mut pixels, mut certain) = (u64x8::splat(simd, 0xFF), u64::MAX);
         for k in 0..3 {
-            let (dx, dy) = (planes.dx[k], planes.dy[k]);
+            let (dx, dy) = (shown.dx[k], shown.dy[k]);
             // In the order of `Planes::at`.
-            let mean = down * dy + planes.at_pivot[k] + right * dx;
+            let mean = down * dy + shown.at_pivot[k] + right * dx;
             // No two samples of a pixel are farther apart.
             let reach = (dx.abs() + dy.abs()) * (side - 1.0);
+            let limits = limits[k];
+            let values = ValueSpread { mean, reach, limits };
             let (bytes, of_channel) = if is_linear {
                 let [xx, xy, yy] = &spread.squares;
                 let squares = f64x8::simd_from(simd, *xx) * (dx * dx)
                     + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
                     + f64x8::simd_from(simd, *yy) * (dy * dy);
-                ValueSpread { mean, reach }.bytes_of_light(simd, squares)
+                values.bytes_of_light(simd, squares)
             } else {
-                ValueSpread { mean, reach }.bytes(simd)
+                values.bytes(simd)
             };
             certain &= of_channel;
             pixels = pixels << 8 | bytes;
@@ -82,27 +93,26 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
         for (i, value) in values.iter_mut().enumerate() {
             *value = if certain >> i & 1 == 1 {
                 low_word(pixels[i])
+            } else if placed.count <= FEW {
+                one_by_one::<S, FEW>(simd, planes, placed, at + i, mean)
             } else {
-                let pixel = (places[i], placed.inside(at + i));
-                if placed.count <= FEW {
-                    one_by_one::<S, FEW>(simd, planes, grid, pixel, mean)
-                } else {
-                    one_by_one::<S, MANY>(simd, planes, grid, pixel, mean)
-                }
+                one_by_one::<S, MANY>(simd, planes, placed, at + i, mean)
             };
         }
     }
 }
 
-/// The pixel at a place, from each of its samples, of which there are at most `N`.
+/// Pixel `i` of the list, from each of its samples, of which there are at most `N`.
 #[inline(never)]
 fn one_by_one<S: Simd, const N: usize>(
     simd: S,
     planes: &Planes<3>,
-    grid: SampleGrid,
-    (place, inside): ([u16; 2], &[Position]),
+    placed: PlacedPixels<'_>,
+    i: usize,
     mean: &SampleMean,
 ) -> u32 {
+    let Pixels { grid, places } = placed.pixels;
+    let (place, inside) = (places[i], placed.inside(i));
     let (mut points, mut colors) = ([[0; 2]; N], [Premultiplied16::TRANSPARENT; N]);
     let side = u16::try_from(grid.side).unwrap_or(u16::MAX);
     for (point, inside) in points.iter_mut().zip(inside) {
@@ -113,7 +123,31 @@ fn one_by_one<S: Simd, const N: usize>(
         #[inline(always)]
         || point_kernel(simd, planes, grid, points, colors),
     );
+    for tint in placed.tints {
+        tint.over_all(colors, Rules::Standard);
+    }
     mean.pixel(colors)
+}
+
+impl TintedPlanes {
+    /// Source-over of one after the other keeps planes plane. Every one rounds what it leaves of what was rounded before it.
+    #[inline(always)]
+    fn new(planes: &Planes<3>, tints: &[Premultiplied16]) -> Self {
+        let (mut planes, mut limits) = (*planes, [ValueLimits::STORED; 3]);
+        for tint in tints {
+            let left = 1.0 - f64::from(tint.0[3]) / ONE;
+            planes = planes.scaled(left);
+            for ((at_pivot, limits), channel) in planes.at_pivot.iter_mut().zip(&mut limits).zip(tint.0) {
+                let channel = f64::from(channel);
+                *at_pivot += channel;
+                limits.rounded = limits.rounded * left + 0.5;
+                for end in &mut limits.range {
+                    *end = (*end * left + channel).min(ONE);
+                }
+            }
+        }
+        Self { planes, limits }
+    }
 }
 
 impl PlaceSpreads {
@@ -170,10 +204,8 @@ mod tests {
     use crate::geometry::edge::doubled_area;
     use crate::geometry::subpixel::GridPoint;
     use crate::raster::sampling::positions::{SamplePositions, lattice};
-    use crate::raster::shading::context::Pixels;
-    use crate::raster::shading::kernel::ONE;
     use crate::raster::{SamplePattern, Seed};
-    use crate::rules::Rules;
+    use crate::texture::SampleGrid;
 
     /// A pattern's samples at some pixels, and planes through random colours on a random triangle.
     struct Case {
@@ -183,6 +215,7 @@ mod tests {
         grid: SampleGrid,
         places: Vec<[u16; 2]>,
         inside: Vec<Position>,
+        tints: Vec<Premultiplied16>,
     }
 
     impl Case {
@@ -223,6 +256,13 @@ mod tests {
                 let pixel = [0, 1].map(|i| grid.origin[i] + i32::from(place[i]));
                 inside.extend_from_slice(positions.of_pixel(pixel, &mut Vec::new()));
             }
+            let count = u.int_in_range(0..=3)?;
+            let mut tint = |_| -> Result<Premultiplied16> {
+                let alpha = u.int_in_range(0..=Premultiplied16::ONE)?;
+                let mut channel = || u.int_in_range(0..=alpha);
+                Ok(Premultiplied16([channel()?, channel()?, channel()?, alpha]))
+            };
+            let tints = (0..count).map(&mut tint).collect::<Result<_>>()?;
             Ok(Some(Self {
                 pattern,
                 rate,
@@ -230,6 +270,7 @@ mod tests {
                 grid,
                 places,
                 inside,
+                tints,
             }))
         }
 
@@ -241,6 +282,7 @@ mod tests {
                 },
                 count: self.rate.samples() as usize,
                 inside: &self.inside,
+                tints: &self.tints,
             }
         }
 
@@ -253,6 +295,11 @@ mod tests {
                 .collect();
             let mut colors = vec![Premultiplied16::TRANSPARENT; points.len()];
             dispatch!(simd::level(), simd => point_kernel(simd, &self.planes, self.grid, &points, &mut colors));
+            for color in &mut colors {
+                for tint in &self.tints {
+                    *color = tint.over(*color, Rules::Standard);
+                }
+            }
             mean.pixel(&colors)
         }
     }

@@ -149,6 +149,7 @@ impl SampleShades {
         }
         self.pixels.clear();
         self.pixels.resize(self.whole.len(), 0);
+        let tinted = shader.tinted();
         let placed = PlacedPixels {
             pixels: Pixels {
                 grid,
@@ -156,9 +157,9 @@ impl SampleShades {
             },
             count: positions.count(),
             inside: &self.inside,
+            tints: tinted.map(|(_, tints)| tints).unwrap_or_default(),
         };
-        let alone = shader.alone();
-        if !alone.is_some_and(|shader| shader.placed_pixels(placed, mean, &mut self.pixels)) {
+        if !tinted.is_some_and(|(shader, _)| shader.placed_pixels(placed, mean, &mut self.pixels)) {
             self.points.clear();
             self.points.resize(self.whole.len() * placed.count, [0; 2]);
             dispatch!(simd::level(), simd => points_of(simd, placed, &mut self.points));

@@ -17,6 +17,8 @@ pub(super) struct SurfaceShader<'a> {
     lowest: Shader<'a>,
     /// What is painted over it, in that order.
     above: Vec<Shader<'a>>,
+    /// Their colours, where these are flat and the lowest paint hides the ground.
+    tints: Option<Vec<Premultiplied16>>,
     rules: Rules,
 }
 
@@ -35,17 +37,20 @@ impl<'a> SurfaceShader<'a> {
         });
         let mut above: Vec<_> = from_top.collect();
         above.reverse();
+        let lowest = prepared(primitive);
+        let tints = lowest.opaque.then(|| above.iter().map(Shader::constant).collect());
         Some(Self {
             ground: surface.flat,
-            lowest: prepared(primitive),
+            lowest,
+            tints: tints.flatten(),
             above,
             rules: context.sampling.rules,
         })
     }
 
-    /// The only shader, where nothing is painted over it and nothing is seen through it.
-    pub(super) fn alone(&self) -> Option<&Shader<'a>> {
-        (self.lowest.opaque && self.above.is_empty()).then_some(&self.lowest)
+    /// The only paint that is shaded and the flat colours over it, where nothing is seen through it.
+    pub(super) fn tinted(&self) -> Option<(&Shader<'a>, &[Premultiplied16])> {
+        Some((&self.lowest, self.tints.as_ref()?))
     }
 
     fn shaders(&self) -> impl Iterator<Item = &Shader<'a>> {

@@ -22,6 +22,10 @@ static LIGHT: LazyLock<Box<[u32; 1 << 16]>> = LazyLock::new(|| {
     all
 });
 
+/// Linear light of every byte.
+static LIGHT_OF_BYTES: LazyLock<[u32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|byte| LIGHT[byte * usize::from(Premultiplied16::PER_BYTE)]));
+
 /// How light becomes bytes.
 static STEPS: LazyLock<[Steps<BITS>; 2]> = LazyLock::new(Steps::both);
 
@@ -123,10 +127,15 @@ impl LightResolver {
         self.translucent([r, g, b], alphas)
     }
 
+    /// The light of each byte of an opaque colour.
+    pub(super) fn of_bytes() -> &'static [u32; 256] {
+        &LIGHT_OF_BYTES
+    }
+
     /// The pixel of the light of opaque samples.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "a product of at most 39 and 63 bits")]
-    fn opaque_pixel(&self, [r, g, b]: [u64; 3]) -> u32 {
+    pub(super) fn opaque_pixel(&self, [r, g, b]: [u64; 3]) -> u32 {
         // What rounding the reciprocal up adds is less than the part of one sample: the whole part of the mean stays.
         let byte = |sum: u64| {
             let mean = (u128::from(sum) * u128::from(self.reciprocal)) >> 63;

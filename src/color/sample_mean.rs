@@ -39,6 +39,34 @@ impl SampleMean {
         }
     }
 
+    /// What each byte of an opaque sample counts.
+    pub fn byte_values(&self) -> &'static [u32; 256] {
+        static STORED: [u32; 256] = {
+            let (mut values, mut byte) = ([0; 256], 1);
+            while byte < values.len() {
+                values[byte] = values[byte - 1] + Premultiplied16::PER_BYTE as u32;
+                byte += 1;
+            }
+            values
+        };
+        match self {
+            Self::Stored(_) => &STORED,
+            Self::Linear(_) => LightResolver::of_bytes(),
+        }
+    }
+
+    /// The pixel of the sums over [`SampleMean::byte_values`] of as many samples as there are in one.
+    #[inline]
+    pub fn pixel_of_values(&self, sums: [u64; 3]) -> u32 {
+        match self {
+            Self::Stored(resolver) => {
+                let [r, g, b] = sums.map(|sum| u32::try_from(sum).unwrap_or(u32::MAX));
+                resolver.pixel([r, g, b, resolver.count() * u32::from(Premultiplied16::ONE)])
+            }
+            Self::Linear(resolver) => resolver.opaque_pixel(sums),
+        }
+    }
+
     /// The pixels of opaque samples, one pixel after the other.
     pub fn opaque_pixels(&self, samples: &[Premultiplied16], pixels: &mut [u32]) {
         dispatch!(simd::level(), simd => self.opaque_pixels_with(simd, samples, pixels));
@@ -83,8 +111,21 @@ mod tests {
                     ]))
                 })
                 .collect::<arbtest::arbitrary::Result<_>>()?;
+            let bytes: Vec<Premultiplied16> = samples
+                .iter()
+                .map(|sample| Premultiplied16(sample.0.map(|channel| channel & 0xFF00)))
+                .collect();
             for space in ResolveSpace::ALL {
                 let mean = SampleMean::new(space, count, rules);
+                for samples in bytes.chunks_exact(count as usize) {
+                    let value = |channel: u16| u64::from(mean.byte_values()[usize::from(channel >> 8)]);
+                    let sums = [0, 1, 2].map(|k| samples.iter().map(|sample| value(sample.0[k])).sum());
+                    assert_eq!(
+                        mean.pixel_of_values(sums),
+                        mean.pixel(samples),
+                        "by its bytes: {samples:?}"
+                    );
+                }
                 let expected: Vec<u32> = samples
                     .chunks_exact(count as usize)
                     .map(|samples| space.resolve(samples, rules))

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::bilinear::mass;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
+use super::nearest_values::{self, ValueList};
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
@@ -127,6 +128,12 @@ impl<'a> Filter<'a> {
     /// per sample. Where every sample reads the same colour `c`, it is exactly the number of samples times `256 c`.
     pub fn sums(&self, simd: Level, grid: SampleGrid, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
         pixel_filter::sum(simd, &self.plan(grid), grid.side, list, sums);
+    }
+
+    /// For each of the pixels what red, green and blue of the texels of its samples count, where each of these reads the nearest texel
+    /// of one level; whether that is so. Sums over `list.pixels[i]` are written to `sums[i]`.
+    pub fn value_sums(&self, simd: Level, grid: SampleGrid, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
+        self.pixel == PixelSampling::Nearest && nearest_values::sum(simd, &self.plan(grid), grid.side, list, sums)
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {

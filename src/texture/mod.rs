@@ -26,6 +26,7 @@ mod level_choice;
 mod level_of_detail;
 mod light_bytes;
 mod nearest_sums;
+mod nearest_values;
 #[cfg(test)]
 mod oracle;
 mod pixel_filter;
@@ -62,6 +63,7 @@ pub use filter_plan::PixelList;
 pub use footprint::Footprint;
 pub use level_choice::LevelChoice;
 pub use level_of_detail::Reading;
+pub use nearest_values::ValueList;
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use pyramid_filter::PyramidFilter;
 pub use ripmap::Ripmap;

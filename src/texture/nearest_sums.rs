@@ -49,43 +49,60 @@ const LIST: f64 = (1_u32 << 20) as f64;
 /// Where the samples of every pixel lie.
 #[derive(Debug)]
 pub(super) struct NearestSamples<'a, const N: usize> {
-    level: GridLevel<'a>,
+    pub(super) level: GridLevel<'a>,
     side: u32,
-    x: Offsets<N>,
-    y: Offsets<N>,
+    pub(super) count: usize,
+    pub(super) x: Offsets<N>,
+    pub(super) y: Offsets<N>,
     /// Both axes, where they go on for ever.
-    endless: Option<[Endless; 2]>,
+    pub(super) endless: Option<[Endless; 2]>,
 }
 
 /// The same on one axis.
 #[derive(Debug)]
-struct Offsets<const N: usize> {
+pub(super) struct Offsets<const N: usize> {
     /// From the pixel's centre, in fixed point, and half of [`UNCERTAIN`] more: so what is uncertain lies just behind the edge
     /// of a texel. On an axis that goes on for ever, brought into the period before it.
-    of_samples: [i32; N],
+    pub(super) of_samples: [i32; N],
     /// Centres that far outside the level have no sample in it, in texels.
-    reach: f64,
+    pub(super) reach: f64,
 }
 
 /// Which texels the samples of a vector of pixels read.
-struct Found<S: Simd, const N: usize> {
+pub(super) struct Found<S: Simd, const N: usize> {
     /// For each sample the texel of each pixel.
-    texels: [[u32; MAX_LANES]; N],
+    pub(super) texels: [[u32; MAX_LANES]; N],
     /// How far the samples are from the edges of their texels, at least; in the lower half of each lane.
     distance: S::i16s,
 }
 
 impl<'a, const N: usize> NearestSamples<'a, N> {
-    /// For a plan that reads the nearest texel of one level; `None` where it does not, or numbers are too large.
+    /// For a plan that reads the nearest texel of one level, at all samples of a grid; `None` where it does not, or numbers are too
+    /// large.
     pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
+        let rows = 0..side;
+        Self::of_places(
+            plan,
+            side,
+            &rows.flat_map(|row| (0..side).map(move |column| [column, row])),
+        )
+    }
+
+    /// As [`NearestSamples::new`], at samples that lie there in a pixel of `side` columns and rows.
+    pub(super) fn of_places(
+        plan: &Plan<'a>,
+        side: u32,
+        places: &(impl Iterator<Item = [u32; 2]> + Clone),
+    ) -> Option<Self> {
         let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
-        if !is_one || (side * side) as usize > N {
+        let count = if is_one { places.clone().count() } else { 0 };
+        if count == 0 || count > N {
             return None;
         }
         let offsets = |axis: &Axis| {
             let farthest = plan.first.abs() + LIST;
             let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
-            Offsets::new(axis, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
+            Offsets::new(axis, side, places.clone()).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
         };
         let mut samples = Self {
             x: offsets(&plan.finer.x)?,
@@ -93,6 +110,7 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
             endless: None,
             level: plan.finer,
             side,
+            count,
         };
         if let Some((x, y)) = plan.endless(&plan.finer.x).zip(plan.endless(&plan.finer.y)) {
             samples.x.bring_before(&x);
@@ -101,22 +119,29 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
         }
         Some(samples)
     }
+
+    /// Where the centres of up to a vector of pixels lie; `middle` is that of the pixel that lists are counted from.
+    #[inline(always)]
+    pub(super) fn centres<S: Simd>(&self, simd: S, pixels: &[[u16; 2]], middle: DVec2) -> Positions<S> {
+        let side = S::f32s::splat(simd, self.side as f32);
+        let [columns, rows] = columns_and_rows(simd, pixels);
+        Positions::new(simd, [columns * side, rows * side], middle)
+    }
+
+    /// The centre of the pixel that lists are counted from, in samples from the pivot.
+    pub(super) fn middle(&self, plan: &Plan<'_>) -> DVec2 {
+        plan.first + f64::from(self.side - 1) / 2.0
+    }
 }
 
 impl<const N: usize> Offsets<N> {
-    fn new(axis: &Axis, side: u32) -> Option<Self> {
+    fn new(axis: &Axis, side: u32, places: impl Iterator<Item = [u32; 2]>) -> Option<Self> {
         let middle = f64::from(side - 1) / 2.0;
         let reach = (axis.right.abs() + axis.down.abs()) * middle + AWAY;
         let mut of_samples = [0; N];
-        for (j, row) in of_samples
-            .chunks_exact_mut(side as usize)
-            .take(side as usize)
-            .enumerate()
-        {
-            let down = (j as f64 - middle) * axis.down;
-            for (i, offset) in row.iter_mut().enumerate() {
-                *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
-            }
+        for (offset, [column, row]) in of_samples.iter_mut().zip(places) {
+            let down = (f64::from(row) - middle) * axis.down;
+            *offset = to_units(down + (f64::from(column) - middle) * axis.right) + UNCERTAIN / 2;
         }
         reach.is_finite().then_some(Self { of_samples, reach })
     }
@@ -149,12 +174,9 @@ pub(super) fn sum<S: Simd, const N: usize>(
     sums: &mut [[u32; 4]],
 ) {
     let lanes = S::u32s::LEN;
-    let count = (samples.side * samples.side) as usize;
-    let middle = plan.first + f64::from(samples.side - 1) / 2.0;
-    let mut found = Found {
-        texels: [[0; MAX_LANES]; N],
-        distance: S::i16s::splat(simd, 0),
-    };
+    let count = samples.count;
+    let middle = samples.middle(plan);
+    let mut found = Found::new(simd);
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
         found.find(simd, samples, pixels, middle);
         let masks = list.masks.map(|masks| &masks[i * lanes..]);
@@ -174,12 +196,18 @@ pub(super) fn sum<S: Simd, const N: usize>(
 }
 
 impl<S: Simd, const N: usize> Found<S, N> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self {
+            texels: [[0; MAX_LANES]; N],
+            distance: S::i16s::splat(simd, 0),
+        }
+    }
+
     /// Finds the texels of up to a vector of pixels; `middle` is the centre of the pixel that lists are counted from.
     #[inline(always)]
-    fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, pixels: &[[u16; 2]], middle: DVec2) {
-        let side = S::f32s::splat(simd, samples.side as f32);
-        let [columns, rows] = columns_and_rows(simd, pixels);
-        let at = Positions::new(simd, [columns * side, rows * side], middle);
+    pub(super) fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, pixels: &[[u16; 2]], middle: DVec2) {
+        let at = samples.centres(simd, pixels, middle);
         let level = &samples.level;
         if let Some([x, y]) = &samples.endless {
             let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];
@@ -221,7 +249,7 @@ impl<S: Simd, const N: usize> Found<S, N> {
         let stride: S::i16s = number(1 | level.level.stride().cast_signed() << 16).bitcast();
         let fraction: S::i16s = number((1 << FRACTION_BITS) - 1).bitcast();
         let mut distance = S::i16s::splat(simd, i16::MAX);
-        let count = (samples.side * samples.side) as usize;
+        let count = samples.count;
         let offsets = samples.x.of_samples[..count].iter().zip(&samples.y.of_samples[..count]);
         for (texels, (right, down)) in self.texels.iter_mut().zip(offsets) {
             let (x, y) = (x + number(*right), y + number(*down));
@@ -241,9 +269,15 @@ impl<S: Simd, const N: usize> Found<S, N> {
 
     /// Whether a sample of a pixel may read another texel than the one that was found.
     #[inline(always)]
-    fn is_uncertain(&self, lane: usize) -> bool {
-        i32::from(self.distance.as_slice()[2 * lane]) < UNCERTAIN
+    pub(super) fn is_uncertain(&self, lane: usize) -> bool {
+        is_uncertain::<S>(self.distance, lane)
     }
+}
+
+/// Whether a sample that is so far from the edges of texels, as it was found, may lie in another one.
+#[inline(always)]
+pub(super) fn is_uncertain<S: Simd>(distance: S::i16s, lane: usize) -> bool {
+    i32::from(distance.as_slice()[2 * lane]) < UNCERTAIN
 }
 
 /// The sum of the texels that all samples of a pixel read.
@@ -297,29 +331,34 @@ fn sum_some(texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize, mask: u
 /// The sum of a pixel's samples as they are decided one by one.
 #[cold]
 fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32; 4] {
-    let level = &plan.finer;
     let mut sums = [0; 4];
     for j in 0..side {
         for i in 0..side {
             if mask.is_some_and(|mask| mask.checked_shr(j * side + i).unwrap_or(0) & 1 == 0) {
                 continue;
             }
-            let sample = |pixel: u16, inside: u32| f64::from(u32::from(pixel) * side + inside);
-            let from_pivot = plan.first + DVec2::new(sample(pixel[0], i), sample(pixel[1], j));
-            let at = |axis: &Axis| {
-                let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-                wrap::place(axis.last, (plan.wrap, plan.pixel), texels, None)
-            };
-            add(
-                level.level,
-                (plan.pixel, plan.wrap),
-                [at(&level.x), at(&level.y)],
-                1,
-                &mut sums,
-            );
+            let sample = |pixel: u16, inside: u32| u32::from(pixel) * side + inside;
+            add_sample(plan, [sample(pixel[0], i), sample(pixel[1], j)], &mut sums);
         }
     }
     sums.map(|sum: i32| sum.cast_unsigned() << 8)
+}
+
+/// Adds the texel of one sample, in that column and row of the list's samples, as it is decided.
+pub(super) fn add_sample(plan: &Plan<'_>, sample: [u32; 2], sums: &mut [i32; 4]) {
+    let level = &plan.finer;
+    let from_pivot = plan.first + DVec2::from_array(sample.map(f64::from));
+    let at = |axis: &Axis| {
+        let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+        wrap::place(axis.last, (plan.wrap, plan.pixel), texels, None)
+    };
+    add(
+        level.level,
+        (plan.pixel, plan.wrap),
+        [at(&level.x), at(&level.y)],
+        1,
+        sums,
+    );
 }
 
 #[cfg(test)]
@@ -338,7 +377,8 @@ mod tests {
                 last: 63.0,
             };
             for side in [2, 3, 4] {
-                let offsets = Offsets::<FEW>::new(&axis, side).expect("not too far");
+                let places = (0..side * side).map(|i| [i % side, i / side]);
+                let offsets = Offsets::<FEW>::new(&axis, side, places).expect("not too far");
                 for centre in [-offsets.reach, axis.last + offsets.reach] {
                     let places = offsets.of_samples[..(side * side) as usize].iter();
                     let least = places.map(|offset| (to_units(centre) + offset) & (ONE - 1)).min();

@@ -2,18 +2,18 @@
 
 use glam::DVec2;
 
-use crate::color::{Premultiplied16, unit_to_16};
+use crate::color::{Premultiplied16, SampleMean, unit_to_16};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, masked_sums_by_points, pixels_by_points};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::{
-    AreaFilter, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture, UvMap,
+    AreaFilter, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture, UvMap, ValueList,
 };
 
 /// Most samples along the side of a pixel of which a filter takes sums by masks.
@@ -137,6 +137,26 @@ impl Shade for TextureShader<'_> {
             }
             Reader::Course(_) | Reader::Area(_) => pixels_by_points(self, pixels, rules, values),
         }
+    }
+
+    fn placed_pixels(&self, placed: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
+        let Reader::Standard(filter) = &self.reader else {
+            return false;
+        };
+        let are_plain = placed.are_same() && placed.tints.is_empty();
+        let mut sums = vec![[0; 3]; values.len()];
+        let list = ValueList {
+            pixels: placed.pixels.places,
+            inside: placed.inside,
+            values: mean.byte_values(),
+        };
+        if !are_plain || !filter.value_sums(simd::level(), placed.pixels.grid, list, &mut sums) {
+            return false;
+        }
+        for (value, sum) in values.iter_mut().zip(&sums) {
+            *value = mean.pixel_of_values(*sum);
+        }
+        true
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

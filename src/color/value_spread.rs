@@ -31,6 +31,11 @@ const BEND: f64 = 0.040_45 * ONE;
 const SLOPE: f64 = 1.0 / (ONE * 1.055);
 const OFFSET: f64 = 0.055 / 1.055;
 
+/// The most that `SLOPE` is of the base of that power: at the bend.
+const STEEPEST: f64 = SLOPE / (BEND * SLOPE + OFFSET);
+/// The curve bends so little that it does not matter where on it values lie, in units.
+const LITTLE: f64 = 0.05;
+
 /// What the curve is off where it bends and light is rounded to whole numbers, even in the dark.
 const OF_LIGHT: f64 = 0.1;
 /// Planes are rounded, too.
@@ -44,7 +49,7 @@ const SLACK: f64 = 1e-3;
 pub(crate) struct ValueSpread<S: Simd> {
     /// In units of [`Premultiplied16`].
     pub(crate) mean: f64x8<S>,
-    /// No value is farther away.
+    /// No two values are farther apart.
     pub(crate) reach: f64,
     pub(crate) limits: ValueLimits,
 }
@@ -54,7 +59,7 @@ pub(crate) struct ValueSpread<S: Simd> {
 pub(crate) struct ValueLimits {
     /// Those that would lie outside are clamped.
     pub(crate) range: [f64; 2],
-    /// How far rounding may have moved a value.
+    /// How far rounding may have moved a value, and what is not known of their mean.
     pub(crate) rounded: f64,
 }
 
@@ -73,10 +78,16 @@ impl<S: Simd> ValueSpread<S> {
     pub(crate) fn bytes_of_light(self, simd: S, squares: f64x8<S>) -> (u64x8<S>, u64) {
         let Self { mean, reach, limits } = self;
         let off = limits.rounded + OF_LIGHT;
-        let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
-        let step = f64x8::splat(simd, SLOPE) / base;
+        let widest = reach + off;
         // Half of the second derivative, at its greatest, over the first.
-        let bent = squares * (step * ((reach + off) * step + 1.0)) * (1.4 / 2.0);
+        let most = reach * reach / 4.0 * (STEEPEST * (widest * STEEPEST + 1.0)) * (1.4 / 2.0);
+        let bent = if most < LITTLE {
+            f64x8::splat(simd, most)
+        } else {
+            let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
+            let step = f64x8::splat(simd, SLOPE) / base;
+            squares * (step * (step * widest + 1.0)) * (1.4 / 2.0)
+        };
         let is_smooth = (mean - BEND).abs().simd_gt(f64x8::splat(simd, reach + 2.0 * off));
         let (bytes, certain) = self.between(simd, mean - off, mean + off + bent);
         (bytes, certain & is_smooth.to_bitmask())
@@ -131,7 +142,8 @@ mod tests {
         let mean = values.iter().sum::<f64>() / f64::from(count);
         let off = |value: &f64| (value - mean).abs();
         let squares = values.iter().map(|value| off(value).powi(2)).sum::<f64>() / f64::from(count);
-        let reach = values.iter().map(off).fold(0.0, f64::max);
+        let end = |which: fn(f64, f64) -> f64| values.iter().copied().fold(mean, which);
+        let reach = end(f64::max) - end(f64::min);
         Ok((values, [mean, squares, reach]))
     }
 

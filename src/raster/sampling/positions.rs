@@ -82,10 +82,42 @@ impl SamplePositions {
         self.own.place(pixels, places);
     }
 
+    /// Between what the mean column of the samples of any pixel lies, and the mean row.
+    pub(crate) fn mean_range(&self) -> [f64; 2] {
+        self.own.mean_range()
+    }
+
     /// What places the samples of a pixel where each has its own, by its column and row in what is painted.
     #[inline]
     pub(crate) fn random(&self, [x, y]: [i32; 2]) -> u64 {
         // A pixel of the frame has the same ones however much is painted around it.
         self.own.random([x - self.margin, y - self.margin], self.seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_lie_in_their_range() {
+        for pattern in SamplePattern::ALL.into_iter().filter(|pattern| pattern.differs_by_pixel()) {
+            let rates = [1, 2, 3, 4, 9, 16, 33, 64, 256].map(|samples| SampleRate::new(samples).expect("a rate"));
+            for rate in rates.into_iter().filter(|rate| pattern.takes(*rate)) {
+                let positions = SamplePositions::new(pattern, rate, Seed::default());
+                let [least, most] = positions.mean_range();
+                for i in 0..200 {
+                    let places = positions.of_pixel([i, i * i % 17], &mut Vec::new()).to_vec();
+                    for axis in 0..2 {
+                        let sum: u32 = places.iter().map(|place| u32::from(place[axis])).sum();
+                        let mean = f64::from(sum) / f64::from(rate.samples());
+                        assert!(
+                            (least..=most).contains(&mean),
+                            "{pattern:?}, {rate:?}: {mean} is not in {least}..={most}"
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -53,6 +53,16 @@ pub(crate) struct PlacedPixels<'p> {
     pub(crate) tints: &'p [Premultiplied16],
 }
 
+/// All samples of some pixels, of whose places no more is known than where their means are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoundedPixels<'p> {
+    pub(crate) pixels: Pixels<'p>,
+    /// Between what the mean column of the samples of each pixel lies, and the mean row.
+    pub(crate) mean_range: [f64; 2],
+    /// Flat colours that are painted over them, in that order.
+    pub(crate) tints: &'p [Premultiplied16],
+}
+
 /// Some samples of some pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MaskedPixels<'p> {

@@ -4,7 +4,9 @@
 use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
@@ -73,6 +75,12 @@ pub(super) trait Shade {
     /// The pixels that all of their samples make with what is painted over them, where there is a way that is shorter than
     /// [`Shade::points`] of each; whether there is one. The triangle must be opaque.
     fn placed_pixels(&self, _: PlacedPixels<'_>, _: &SampleMean, _: &mut [u32]) -> bool {
+        false
+    }
+
+    /// Those of the pixels, with what is painted over them, for which it does not matter where exactly their samples lie; the numbers of
+    /// all others are added to `open`. `false` where there is no way to know. The triangle must be opaque.
+    fn bounded_pixels(&self, _: BoundedPixels<'_>, _: &SampleMean, _: &mut [u32], _: &mut Vec<usize>) -> bool {
         false
     }
 

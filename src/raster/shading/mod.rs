@@ -29,7 +29,9 @@ mod vertex_means;
 use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+};
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade};
@@ -247,6 +249,19 @@ impl<'a> Shader<'a> {
         // Samples that are all alike are their pixel, whatever is averaged.
         self.pixels(pixels.pixels, values);
         true
+    }
+
+    /// Those of the pixels, with what is painted over them, for which it does not matter where exactly their samples lie; the numbers of
+    /// all others are added to `open`. `false` where there is no way to know. The triangle must be opaque.
+    pub(crate) fn bounded_pixels(
+        &self,
+        pixels: BoundedPixels<'_>,
+        mean: &SampleMean,
+        values: &mut [u32],
+        open: &mut Vec<usize>,
+    ) -> bool {
+        self.centres.is_none()
+            && ask!(&self.any, AnyShader, shader => shader.bounded_pixels(pixels, mean, values, open))
     }
 
     /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.

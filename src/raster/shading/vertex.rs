@@ -6,7 +6,9 @@ use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+};
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{ONE, first_sample};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner};
@@ -114,6 +116,17 @@ impl Shade for VertexShader {
             vertex_means::means(&self.opaque, pixels, mean, values);
         }
         is_smooth
+    }
+
+    fn bounded_pixels(
+        &self,
+        pixels: BoundedPixels<'_>,
+        mean: &SampleMean,
+        values: &mut [u32],
+        open: &mut Vec<usize>,
+    ) -> bool {
+        let is_smooth = self.is_opaque && self.rules != Rules::Course;
+        is_smooth && vertex_means::bounded(&self.opaque, pixels, mean, values, open)
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

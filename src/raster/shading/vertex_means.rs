@@ -16,7 +16,7 @@ use crate::color::{Premultiplied16, SampleMean, ValueLimits, ValueSpread};
 use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
-use crate::raster::shading::context::{Pixels, PlacedPixels};
+use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
 use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word};
 use crate::raster::shading::vertex_kernel::point_kernel;
 use crate::rules::Rules;
@@ -51,7 +51,7 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
     let grid = placed.pixels.grid;
     let (first, side) = (first_sample(grid), f64::from(grid.side));
     let is_linear = matches!(mean, SampleMean::Linear(_));
-    let TintedPlanes { planes: shown, limits } = TintedPlanes::new(planes, placed.tints);
+    let shown = TintedPlanes::new(planes, placed.tints);
     let mut spread = PlaceSpreads::of_all(placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
         let at = block * LANES;
@@ -66,29 +66,23 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
             }
         }
         let [columns, rows] = columns_and_rows(simd, places);
-        let right = columns * side + (first[0] - shown.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
-        let down = rows * side + (first[1] - shown.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
-        let (mut pixels, mut certain) = (u64x8::splat(simd, 0xFF), u64::MAX);
-        for k in 0..3 {
-            let (dx, dy) = (shown.dx[k], shown.dy[k]);
-            // In the order of `Planes::at`.
-            let mean = down * dy + shown.at_pivot[k] + right * dx;
-            // No two samples of a pixel are farther apart.
-            let reach = (dx.abs() + dy.abs()) * (side - 1.0);
-            let limits = limits[k];
-            let values = ValueSpread { mean, reach, limits };
-            let (bytes, of_channel) = if is_linear {
+        let right = columns * side + (first[0] - planes.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
+        let down = rows * side + (first[1] - planes.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
+        let (pixels, certain) = shown.pixels(
+            [right, down],
+            side,
+            #[inline(always)]
+            |values, [dx, dy]| {
+                if !is_linear {
+                    return values.bytes(simd);
+                }
                 let [xx, xy, yy] = &spread.squares;
                 let squares = f64x8::simd_from(simd, *xx) * (dx * dx)
                     + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
                     + f64x8::simd_from(simd, *yy) * (dy * dy);
                 values.bytes_of_light(simd, squares)
-            } else {
-                values.bytes(simd)
-            };
-            certain &= of_channel;
-            pixels = pixels << 8 | bytes;
-        }
+            },
+        );
         let pixels = pixels.to_array();
         for (i, value) in values.iter_mut().enumerate() {
             *value = if certain >> i & 1 == 1 {
@@ -98,6 +92,63 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
             } else {
                 one_by_one::<S, MANY>(simd, planes, placed, at + i, mean)
             };
+        }
+    }
+}
+
+/// Those of the pixels for which it does not matter where between these ends the means of their samples lie, and the numbers of all
+/// others; `false` where these would be most.
+pub(super) fn bounded(
+    planes: &Planes<3>,
+    pixels: BoundedPixels<'_>,
+    mean: &SampleMean,
+    values: &mut [u32],
+    open: &mut Vec<usize>,
+) -> bool {
+    let [least, most] = pixels.mean_range;
+    let (middle, half) = (f64::midpoint(least, most), (most - least) / 2.0);
+    let Some(shown) = TintedPlanes::new(planes, pixels.tints).moved_by(half) else {
+        return false;
+    };
+    let is_linear = matches!(mean, SampleMean::Linear(_));
+    dispatch!(simd::level(), simd => bounded_with(simd, (&shown, middle), pixels.pixels, is_linear, (values, open)));
+    true
+}
+
+#[inline(always)]
+fn bounded_with<S: Simd>(
+    simd: S,
+    (shown, middle): (&TintedPlanes, f64),
+    Pixels { grid, places }: Pixels<'_>,
+    is_linear: bool,
+    (values, open): (&mut [u32], &mut Vec<usize>),
+) {
+    let (first, side) = (first_sample(grid), f64::from(grid.side));
+    let from_pivot = [0, 1].map(|axis| first[axis] + middle - shown.planes.pivot[axis]);
+    let blocks = values.chunks_mut(LANES).zip(places.chunks(LANES));
+    for (block, (values, places)) in blocks.enumerate() {
+        let [columns, rows] = columns_and_rows(simd, places);
+        let middle = [columns * side + from_pivot[0], rows * side + from_pivot[1]];
+        let (pixels, certain) = shown.pixels(
+            middle,
+            side,
+            #[inline(always)]
+            |values, _| {
+                if is_linear {
+                    // No values are spread wider than when half of them lie at either end.
+                    let squares = f64x8::splat(simd, values.reach * values.reach / 4.0);
+                    values.bytes_of_light(simd, squares)
+                } else {
+                    values.bytes(simd)
+                }
+            },
+        );
+        let pixels = pixels.to_array();
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = low_word(pixels[i]);
+            if certain >> i & 1 == 0 {
+                open.push(block * LANES + i);
+            }
         }
     }
 }
@@ -147,6 +198,45 @@ impl TintedPlanes {
             }
         }
         Self { planes, limits }
+    }
+
+    /// The same where nobody knows how far samples have moved together, up to `points` of the lattice on each axis; `None` where few
+    /// pixels would be certain.
+    fn moved_by(mut self, points: f64) -> Option<Self> {
+        /// Units, of the 256 of a byte, between the ends of all channels: beyond, half of the pixels are asked for twice.
+        const MOST: f64 = 64.0;
+        let mut all = 0.0;
+        for (k, limits) in self.limits.iter_mut().enumerate() {
+            limits.rounded += (self.planes.dx[k].abs() + self.planes.dy[k].abs()) * points;
+            all += limits.rounded;
+        }
+        (all < MOST).then_some(self)
+    }
+
+    /// The pixels whose samples have these means, from the pivot, and a bit for each that is certain; `bytes` says the bytes of a
+    /// channel that changes so much from one point of the lattice to the next, across and down.
+    #[inline(always)]
+    fn pixels<S: Simd>(
+        &self,
+        [right, down]: [f64x8<S>; 2],
+        side: f64,
+        bytes: impl Fn(ValueSpread<S>, [f64; 2]) -> (u64x8<S>, u64),
+    ) -> (u64x8<S>, u64) {
+        let Self { planes, limits } = self;
+        let (mut pixels, mut certain) = (u64x8::splat(right.simd, 0xFF), u64::MAX);
+        for (k, limits) in limits.iter().enumerate() {
+            let (dx, dy) = (planes.dx[k], planes.dy[k]);
+            let values = ValueSpread {
+                // In the order of `Planes::at`.
+                mean: down * dy + planes.at_pivot[k] + right * dx,
+                reach: (dx.abs() + dy.abs()) * (side - 1.0),
+                limits: *limits,
+            };
+            let (found, of_channel) = bytes(values, [dx, dy]);
+            certain &= of_channel;
+            pixels = pixels << 8 | found;
+        }
+        (pixels, certain)
     }
 }
 
@@ -333,5 +423,37 @@ mod tests {
         })
         .budget_ms(800);
         assert!(pixels_met > 0, "something was compared");
+    }
+
+    #[test]
+    fn pixels_are_certain_only_where_all_places_give_the_same() {
+        let (mut certain, mut all) = (0, 0);
+        arbtest::arbtest(|u| {
+            let Some(case) = Case::new(u)? else {
+                return Ok(());
+            };
+            let positions = SamplePositions::new(case.pattern, case.rate, Seed::default());
+            let bounded = BoundedPixels {
+                pixels: case.placed().pixels,
+                mean_range: positions.mean_range(),
+                tints: &case.tints,
+            };
+            for space in ResolveSpace::ALL {
+                let mean = SampleMean::new(space, case.rate.samples(), Rules::Standard);
+                let (mut found, mut open) = (vec![0; case.places.len()], Vec::new());
+                if !super::bounded(&case.planes, bounded, &mean, &mut found, &mut open) {
+                    continue;
+                }
+                all += found.len();
+                certain += found.len() - open.len();
+                for (i, found) in found.into_iter().enumerate().filter(|(i, _)| !open.contains(i)) {
+                    let expected = case.one_by_one(i, &mean);
+                    assert_eq!(found, expected, "{:?}, {space:?}: {:?}", case.pattern, case.planes);
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(800);
+        assert!(certain * 2 > all && all > 200, "{certain} of {all} are certain");
     }
 }

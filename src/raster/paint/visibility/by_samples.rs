@@ -13,7 +13,7 @@ use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
+use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext};
 use crate::simd;
 use crate::texture::SampleGrid;
 
@@ -41,6 +41,8 @@ pub(super) struct SampleShades {
     /// Pixels of which all samples are shaded, and what becomes of them.
     pub(super) whole: Vec<[u16; 2]>,
     pixels: Vec<u32>,
+    /// The numbers of those that depend on where exactly their samples lie.
+    open: Vec<usize>,
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
     inside: Vec<Position>,
     random: Vec<u64>,
@@ -140,6 +142,59 @@ impl SampleShades {
         mean: &SampleMean,
         grid: SampleGrid,
     ) {
+        self.pixels.clear();
+        self.pixels.resize(self.whole.len(), 0);
+        if positions.are_same() || !self.shade_certain(shader, positions, mean, grid) {
+            self.shade_all(shader, positions, mean, grid);
+        }
+    }
+
+    /// The same, as far as it does not matter where exactly samples lie before anybody places them; whether there is a way to know.
+    fn shade_certain(
+        &mut self,
+        shader: &SurfaceShader<'_>,
+        positions: &SamplePositions,
+        mean: &SampleMean,
+        grid: SampleGrid,
+    ) -> bool {
+        let Some((lowest, tints)) = shader.tinted() else {
+            return false;
+        };
+        self.open.clear();
+        let bounded = BoundedPixels {
+            pixels: Pixels {
+                grid,
+                places: &self.whole,
+            },
+            mean_range: positions.mean_range(),
+            tints,
+        };
+        if !lowest.bounded_pixels(bounded, mean, &mut self.pixels, &mut self.open) {
+            return false;
+        }
+        if self.open.is_empty() {
+            return true;
+        }
+        let open = std::mem::take(&mut self.open);
+        let rest = open.iter().map(|i| self.whole[*i]).collect();
+        let whole = std::mem::replace(&mut self.whole, rest);
+        let mut pixels = std::mem::replace(&mut self.pixels, vec![0; open.len()]);
+        self.shade_all(shader, positions, mean, grid);
+        for (i, pixel) in open.iter().zip(&self.pixels) {
+            pixels[*i] = *pixel;
+        }
+        (self.whole, self.pixels, self.open) = (whole, pixels, open);
+        true
+    }
+
+    /// The same, from where samples lie.
+    fn shade_all(
+        &mut self,
+        shader: &SurfaceShader<'_>,
+        positions: &SamplePositions,
+        mean: &SampleMean,
+        grid: SampleGrid,
+    ) {
         if !positions.are_same() {
             self.random.clear();
             self.random
@@ -147,8 +202,6 @@ impl SampleShades {
             self.inside.clear();
             positions.add(&self.random, &mut self.inside);
         }
-        self.pixels.clear();
-        self.pixels.resize(self.whole.len(), 0);
         let tinted = shader.tinted();
         let placed = PlacedPixels {
             pixels: Pixels {
@@ -159,7 +212,7 @@ impl SampleShades {
             inside: &self.inside,
             tints: tinted.map(|(_, tints)| tints).unwrap_or_default(),
         };
-        if !tinted.is_some_and(|(shader, _)| shader.placed_pixels(placed, mean, &mut self.pixels)) {
+        if !tinted.is_some_and(|(lowest, _)| lowest.placed_pixels(placed, mean, &mut self.pixels)) {
             self.points.clear();
             self.points.resize(self.whole.len() * placed.count, [0; 2]);
             dispatch!(simd::level(), simd => points_of(simd, placed, &mut self.points));

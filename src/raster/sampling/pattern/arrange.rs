@@ -25,6 +25,11 @@ pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
 
     /// Adds the places of the samples of pixels, one pixel after the other: each has random bits of its own.
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>);
+
+    /// Between what the mean column of the samples of any pixel lies, and the mean row.
+    fn mean_range(&self) -> [f64; 2] {
+        [0.0, f64::from(u8::MAX)]
+    }
 }
 
 /// The random bits of pixels, each with new places for `count` samples.

@@ -20,6 +20,16 @@ pub(super) fn cells(n: u32) -> Vec<Cell> {
     (0..n).map(|k| [first(k), first(k + 1) - first(k)]).collect()
 }
 
+/// Between what the mean of one point in each cell lies.
+pub(super) fn mean_range(cells: &[Cell]) -> [f64; 2] {
+    let (mut least, mut most) = (0, 0);
+    for [start, length] in cells {
+        least += start;
+        most += start + length.saturating_sub(1);
+    }
+    [least, most].map(|sum| f64::from(sum) / cells.len().max(1) as f64)
+}
+
 /// A point of a cell, by 16 random bits: what [`CellBlock::anywhere`] is tested against.
 #[cfg(test)]
 pub(super) fn anywhere([start, length]: Cell, random: u32) -> u8 {

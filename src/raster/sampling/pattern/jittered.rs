@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32};
 
 use super::arrange::{Arrange, Place, Position, with_places};
-use super::cells::{CellBlock, TOGETHER, cells};
+use super::cells::{CellBlock, TOGETHER, cells, mean_range};
 use super::random_bits::hash_eight;
 use crate::raster::sampling::rate::SampleRate;
 use crate::simd;
@@ -25,6 +25,7 @@ pub(super) struct Jittered;
 struct Jitter {
     count: usize,
     cells: Vec<CellBlock>,
+    mean_range: [f64; 2],
 }
 
 impl Arrange for Jittered {
@@ -36,6 +37,7 @@ impl Arrange for Jittered {
             .collect();
         Arc::new(Jitter {
             count: all.len(),
+            mean_range: mean_range(&cells),
             cells: all
                 .chunks(TOGETHER)
                 .map(|cells| CellBlock::new(cells.as_flattened()))
@@ -47,6 +49,10 @@ impl Arrange for Jittered {
 impl Place for Jitter {
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
         dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+    }
+
+    fn mean_range(&self) -> [f64; 2] {
+        self.mean_range
     }
 }
 

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x16, u16x32, u32x4, u32x8, u32x16};
 
 use super::arrange::{Arrange, Place, Position, with_places};
-use super::cells::{CellBlock, TOGETHER, cells};
+use super::cells::{CellBlock, TOGETHER, cells, mean_range};
 use super::random_bits::{halves, hash_eight};
 use crate::raster::sampling::rate::SampleRate;
 use crate::simd;
@@ -28,6 +28,7 @@ struct Strata {
     /// The square of that many: where each begins, and how long it is.
     starts: Vec<u16>,
     lengths: Vec<u16>,
+    mean_range: [f64; 2],
 }
 
 impl Arrange for MultiJittered {
@@ -44,6 +45,7 @@ impl Arrange for MultiJittered {
             side,
             starts: numbers(0),
             lengths: numbers(1),
+            mean_range: mean_range(&narrow),
         })
     }
 }
@@ -60,6 +62,10 @@ impl Place for Strata {
         } else {
             dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
         }
+    }
+
+    fn mean_range(&self) -> [f64; 2] {
+        self.mean_range
     }
 }
 

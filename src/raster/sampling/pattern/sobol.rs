@@ -15,6 +15,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32, u32x16};
 
 use super::arrange::{Arrange, Place, Position, with_places};
+use super::cells::{cells, mean_range};
 use super::random_bits::first_sixteen;
 use crate::raster::sampling::rate::SampleRate;
 use crate::simd;
@@ -56,6 +57,14 @@ impl Arrange for Sobol {
 impl Place for Points {
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
         dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+    }
+
+    fn mean_range(&self) -> [f64; 2] {
+        match u32::try_from(self.count) {
+            // Of so many columns, and rows, each holds one point.
+            Ok(count) if count.is_power_of_two() => mean_range(&cells(count)),
+            _ => [0.0, f64::from(u8::MAX)],
+        }
     }
 }
 

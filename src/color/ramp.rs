@@ -89,6 +89,18 @@ impl Stretch {
         places.simd_ge(f64x8::splat(places.simd, self.start)) & places.simd_lt(f64x8::splat(places.simd, self.end))
     }
 
+    /// Which places it holds, from the first on and before the second.
+    pub fn range(&self) -> [f64; 2] {
+        [self.start, self.end]
+    }
+
+    /// Straight red, green and blue where places begin to be counted, were it that long, and their growth, in units of
+    /// [`Premultiplied16`].
+    pub fn line(&self) -> [[f64; 3]; 2] {
+        let at_zero = |k: usize| self.from[k] - self.slope[k] * self.origin;
+        [[0, 1, 2].map(at_zero), [0, 1, 2].map(|k| self.slope[k])]
+    }
+
     /// Premultiplied red, green, blue and alpha at eight places of it, in units of [`Premultiplied16`], not rounded; rounding
     /// may have carried them a little beyond its limits.
     #[inline(always)]

@@ -101,7 +101,10 @@ mod tests {
 
     #[test]
     fn means_lie_in_their_range() {
-        for pattern in SamplePattern::ALL.into_iter().filter(|pattern| pattern.differs_by_pixel()) {
+        for pattern in SamplePattern::ALL
+            .into_iter()
+            .filter(|pattern| pattern.differs_by_pixel())
+        {
             let rates = [1, 2, 3, 4, 9, 16, 33, 64, 256].map(|samples| SampleRate::new(samples).expect("a rate"));
             for rate in rates.into_iter().filter(|rate| pattern.takes(*rate)) {
                 let positions = SamplePositions::new(pattern, rate, Seed::default());

@@ -139,9 +139,28 @@ impl<'p> PlacedPixels<'p> {
             &self.inside[i * self.count..][..self.count]
         }
     }
+
+    /// Some that follow each other in the list.
+    pub(crate) fn part(self, range: Range<usize>) -> Self {
+        let inside = if self.are_same() {
+            self.inside
+        } else {
+            &self.inside[range.start * self.count..range.end * self.count]
+        };
+        let pixels = self.pixels.part(range);
+        Self { pixels, inside, ..self }
+    }
 }
 
 impl<'p> Pixels<'p> {
+    /// Some that follow each other in the list.
+    pub(crate) fn part(self, range: Range<usize>) -> Self {
+        Self {
+            places: &self.places[range],
+            ..self
+        }
+    }
+
     /// Of each pixel those samples that its mask names, of the 64 from `first` on.
     pub(crate) fn masked(self, masks: &'p [u64], first: u32) -> MaskedPixels<'p> {
         MaskedPixels {

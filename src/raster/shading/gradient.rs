@@ -11,11 +11,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, u64x8};
 use glam::{DAffine2, DVec2};
 
-use crate::color::{Premultiplied16, Ramp, Stretch};
+use crate::color::{Premultiplied16, Ramp, Resolver, SampleMean, Stretch};
 use crate::geometry::PlacedShape;
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{Pixels, ShadeContext, ShadedSample};
+use crate::raster::sampling::positions::Position;
+use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::gradient_means::LineColors;
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample, low_word, places_of};
 use crate::raster::shading::kind::{PaintKind, Shade};
@@ -76,13 +78,27 @@ impl PaintKind for GradientPaint {
 
 impl<'a> GradientShader<'a> {
     /// For frames with `side` samples along the side of a pixel.
-    fn new(gradient: &PlacedGradient<'a>, side: i32, rules: Rules) -> Self {
+    pub(super) fn new(gradient: &PlacedGradient<'a>, side: i32, rules: Rules) -> Self {
         let to_pixels = DAffine2::from_scale(DVec2::splat(f64::from(side).recip()));
         GradientShader {
             shape: gradient.geometry.placed(gradient.from_pixels * to_pixels),
             ramp: gradient.ramp,
             everywhere: gradient.geometry.is_everywhere(),
             rules,
+        }
+    }
+
+    /// Its colours along a line, where they are opaque and rounded to nearest.
+    pub(super) fn line_colors(&self) -> Option<LineColors<'_>> {
+        match self.shape {
+            PlacedShape::Linear { right, down, start } if self.rules != Rules::Course && self.ramp.is_opaque() => {
+                Some(LineColors {
+                    ramp: self.ramp,
+                    place: [right, down, start],
+                    shade: self,
+                })
+            }
+            _ => None,
         }
     }
 
@@ -252,6 +268,46 @@ impl Shade for GradientShader<'_> {
 
     fn is_level(&self) -> bool {
         self.shape.is_level()
+    }
+
+    fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, values: &mut [u32]) -> bool {
+        // One pixel of a line is enough where they are all alike.
+        let Some(colors) = self.line_colors().filter(|_| !self.is_level()) else {
+            return false;
+        };
+        let places: Vec<[u16; 2]> = runs.iter().flat_map(|run| run.places()).collect();
+        let at = |i: u32| u8::try_from(i).unwrap_or(u8::MAX);
+        let rows = 0..grid.side;
+        let inside: Vec<Position> = rows
+            .flat_map(|row| (0..grid.side).map(move |column| [at(column), at(row)]))
+            .collect();
+        let placed = PlacedPixels {
+            pixels: Pixels { grid, places: &places },
+            count: inside.len(),
+            inside: &inside,
+            tints: &[],
+        };
+        colors.means(placed, &SampleMean::Stored(*resolver), values);
+        true
+    }
+
+    fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
+        let colors = self.line_colors();
+        if let Some(colors) = colors {
+            colors.means(pixels, mean, values);
+        }
+        colors.is_some()
+    }
+
+    fn bounded_pixels(
+        &self,
+        pixels: BoundedPixels<'_>,
+        mean: &SampleMean,
+        values: &mut [u32],
+        open: &mut Vec<usize>,
+    ) -> bool {
+        self.line_colors()
+            .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

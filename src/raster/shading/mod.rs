@@ -14,17 +14,18 @@
 
 pub(in crate::raster) mod context;
 mod gradient;
+mod gradient_means;
 pub(in crate::raster) mod interpolated;
 mod kernel;
 mod kind;
 pub(in crate::raster) mod once;
 mod pattern;
+mod plane_means;
 mod solid;
 pub(in crate::raster) mod sources;
 mod texture;
 mod vertex;
 mod vertex_kernel;
-mod vertex_means;
 
 use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;

@@ -12,9 +12,9 @@ use crate::raster::shading::context::{
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{ONE, first_sample};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner};
+use crate::raster::shading::plane_means::PlaneColors;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::shading::vertex_kernel::{Bytes, masked_kernel, point_kernel, run_kernel, sum_kernel};
-use crate::raster::shading::vertex_means;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -81,6 +81,14 @@ impl VertexShader {
         }
     }
 
+    /// Its colours, where they are opaque and rounded to nearest.
+    fn plane_colors(&self) -> Option<PlaneColors<'_>> {
+        (self.is_opaque && self.rules != Rules::Course).then_some(PlaneColors {
+            planes: &self.opaque,
+            shade: self,
+        })
+    }
+
     /// [`Shade::pixel_sums`]; under the same conditions.
     fn opaque_sums(&self, simd: Level, Pixels { grid, places }: Pixels<'_>, sums: &mut [[u32; 4]]) {
         dispatch!(simd, simd => sum_kernel(simd, &self.opaque, grid, places, sums));
@@ -111,11 +119,11 @@ impl Shade for VertexShader {
     }
 
     fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
-        let is_smooth = self.is_opaque && self.rules != Rules::Course;
-        if is_smooth {
-            vertex_means::means(&self.opaque, pixels, mean, values);
+        let colors = self.plane_colors();
+        if let Some(colors) = colors {
+            colors.means(pixels, mean, values);
         }
-        is_smooth
+        colors.is_some()
     }
 
     fn bounded_pixels(
@@ -125,8 +133,8 @@ impl Shade for VertexShader {
         values: &mut [u32],
         open: &mut Vec<usize>,
     ) -> bool {
-        let is_smooth = self.is_opaque && self.rules != Rules::Course;
-        is_smooth && vertex_means::bounded(&self.opaque, pixels, mean, values, open)
+        self.plane_colors()
+            .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

@@ -1,4 +1,4 @@
-//! Pixels of interpolated colours, from the places of all their samples: the same as by shading each sample for itself and painting
+//! Pixels of colours that lie in planes, from the places of all their samples: the same as by shading each sample for itself and painting
 //! flat colours over it, where there are some.
 //!
 //! A pixel nearly always follows from the colour at the middle of its samples and from how far these are spread around it
@@ -18,7 +18,7 @@ use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
 use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word};
-use crate::raster::shading::vertex_kernel::point_kernel;
+use crate::raster::shading::kind::Shade;
 use crate::rules::Rules;
 use crate::simd;
 
@@ -34,6 +34,15 @@ struct PlaceSpreads {
     squares: [[f64; LANES]; 3],
 }
 
+/// Opaque colours in planes.
+#[derive(Clone, Copy)]
+pub(super) struct PlaneColors<'a> {
+    /// Red, green and blue in units of [`Premultiplied16`].
+    pub(super) planes: &'a Planes<3>,
+    /// What gives single samples their colours.
+    pub(super) shade: &'a dyn Shade,
+}
+
 /// Planes through what samples show once flat colours are painted over them.
 struct TintedPlanes {
     /// In units of [`Premultiplied16`].
@@ -41,16 +50,44 @@ struct TintedPlanes {
     limits: [ValueLimits; 3],
 }
 
-/// The pixels of opaque colours, whose planes are in units of [`Premultiplied16`].
-pub(super) fn means(planes: &Planes<3>, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) {
-    dispatch!(simd::level(), simd => means_with(simd, planes, pixels, mean, values));
+impl PlaneColors<'_> {
+    /// All of the pixels.
+    pub(super) fn means(self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) {
+        dispatch!(simd::level(), simd => means_with(simd, self, pixels, mean, values));
+    }
+
+    /// Those of the pixels for which it does not matter where between these ends the means of their samples lie, and the numbers of all
+    /// others; `false` where these would be most.
+    pub(super) fn bounded(
+        self,
+        pixels: BoundedPixels<'_>,
+        mean: &SampleMean,
+        values: &mut [u32],
+        open: &mut Vec<usize>,
+    ) -> bool {
+        let [least, most] = pixels.mean_range;
+        let (middle, half) = (f64::midpoint(least, most), (most - least) / 2.0);
+        let Some(shown) = TintedPlanes::new(self.planes, pixels.tints).moved_by(half) else {
+            return false;
+        };
+        let is_linear = matches!(mean, SampleMean::Linear(_));
+        dispatch!(simd::level(), simd => bounded_with(simd, (&shown, middle), pixels.pixels, is_linear, (values, open)));
+        true
+    }
 }
 
 #[inline(always)]
-fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) {
+fn means_with<S: Simd>(
+    simd: S,
+    colors: PlaneColors<'_>,
+    placed: PlacedPixels<'_>,
+    mean: &SampleMean,
+    values: &mut [u32],
+) {
     let grid = placed.pixels.grid;
     let (first, side) = (first_sample(grid), f64::from(grid.side));
     let is_linear = matches!(mean, SampleMean::Linear(_));
+    let planes = colors.planes;
     let shown = TintedPlanes::new(planes, placed.tints);
     let mut spread = PlaceSpreads::of_all(placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
@@ -88,31 +125,12 @@ fn means_with<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, me
             *value = if certain >> i & 1 == 1 {
                 low_word(pixels[i])
             } else if placed.count <= FEW {
-                one_by_one::<S, FEW>(simd, planes, placed, at + i, mean)
+                one_by_one::<FEW>(colors.shade, placed, at + i, mean)
             } else {
-                one_by_one::<S, MANY>(simd, planes, placed, at + i, mean)
+                one_by_one::<MANY>(colors.shade, placed, at + i, mean)
             };
         }
     }
-}
-
-/// Those of the pixels for which it does not matter where between these ends the means of their samples lie, and the numbers of all
-/// others; `false` where these would be most.
-pub(super) fn bounded(
-    planes: &Planes<3>,
-    pixels: BoundedPixels<'_>,
-    mean: &SampleMean,
-    values: &mut [u32],
-    open: &mut Vec<usize>,
-) -> bool {
-    let [least, most] = pixels.mean_range;
-    let (middle, half) = (f64::midpoint(least, most), (most - least) / 2.0);
-    let Some(shown) = TintedPlanes::new(planes, pixels.tints).moved_by(half) else {
-        return false;
-    };
-    let is_linear = matches!(mean, SampleMean::Linear(_));
-    dispatch!(simd::level(), simd => bounded_with(simd, (&shown, middle), pixels.pixels, is_linear, (values, open)));
-    true
 }
 
 #[inline(always)]
@@ -155,13 +173,7 @@ fn bounded_with<S: Simd>(
 
 /// Pixel `i` of the list, from each of its samples, of which there are at most `N`.
 #[inline(never)]
-fn one_by_one<S: Simd, const N: usize>(
-    simd: S,
-    planes: &Planes<3>,
-    placed: PlacedPixels<'_>,
-    i: usize,
-    mean: &SampleMean,
-) -> u32 {
+fn one_by_one<const N: usize>(shade: &dyn Shade, placed: PlacedPixels<'_>, i: usize, mean: &SampleMean) -> u32 {
     let Pixels { grid, places } = placed.pixels;
     let (place, inside) = (places[i], placed.inside(i));
     let (mut points, mut colors) = ([[0; 2]; N], [Premultiplied16::TRANSPARENT; N]);
@@ -170,10 +182,7 @@ fn one_by_one<S: Simd, const N: usize>(
         *point = [0, 1].map(|axis| place[axis].wrapping_mul(side).wrapping_add(inside[axis].into()));
     }
     let (points, colors) = (&points[..inside.len()], &mut colors[..inside.len()]);
-    simd.vectorize(
-        #[inline(always)]
-        || point_kernel(simd, planes, grid, points, colors),
-    );
+    shade.points(grid, points, colors);
     for tint in placed.tints {
         tint.over_all(colors, Rules::Standard);
     }
@@ -294,8 +303,19 @@ mod tests {
     use crate::geometry::edge::doubled_area;
     use crate::geometry::subpixel::GridPoint;
     use crate::raster::sampling::positions::{SamplePositions, lattice};
+    use crate::raster::shading::vertex_kernel::point_kernel;
     use crate::raster::{SamplePattern, Seed};
     use crate::texture::SampleGrid;
+
+    /// Colours that are rounded to nearest.
+    #[derive(Debug)]
+    struct OfPlanes<'a>(&'a Planes<3>);
+
+    impl Shade for OfPlanes<'_> {
+        fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+            dispatch!(simd::level(), simd => point_kernel(simd, self.0, grid, points, colors));
+        }
+    }
 
     /// A pattern's samples at some pixels, and planes through random colours on a random triangle.
     struct Case {
@@ -376,6 +396,13 @@ mod tests {
             }
         }
 
+        fn colors<'a>(&'a self, shade: &'a OfPlanes<'_>) -> PlaneColors<'a> {
+            PlaneColors {
+                planes: &self.planes,
+                shade,
+            }
+        }
+
         /// Pixel `i`, sample by sample.
         fn one_by_one(&self, i: usize, mean: &SampleMean) -> u32 {
             let side = u16::try_from(self.grid.side).expect("at most 256");
@@ -384,7 +411,7 @@ mod tests {
                 .map(|inside| [0, 1].map(|axis| self.places[i][axis] * side + u16::from(inside[axis])))
                 .collect();
             let mut colors = vec![Premultiplied16::TRANSPARENT; points.len()];
-            dispatch!(simd::level(), simd => point_kernel(simd, &self.planes, self.grid, &points, &mut colors));
+            OfPlanes(&self.planes).points(self.grid, &points, &mut colors);
             for color in &mut colors {
                 for tint in &self.tints {
                     *color = tint.over(*color, Rules::Standard);
@@ -401,6 +428,7 @@ mod tests {
             let Some(case) = Case::new(u)? else {
                 return Ok(());
             };
+            let shade = OfPlanes(&case.planes);
             for (space, rules) in [
                 (ResolveSpace::Stored, Rules::Standard),
                 (ResolveSpace::Linear, Rules::Standard),
@@ -410,7 +438,7 @@ mod tests {
                 let expected: Vec<u32> = (0..case.places.len()).map(|i| case.one_by_one(i, &mean)).collect();
                 for (name, level) in simd::tested() {
                     let mut found = vec![0; expected.len()];
-                    dispatch!(level, simd => means_with(simd, &case.planes, case.placed(), &mean, &mut found));
+                    dispatch!(level, simd => means_with(simd, case.colors(&shade), case.placed(), &mean, &mut found));
                     pixels_met += found.len();
                     assert_eq!(
                         found, expected,
@@ -438,10 +466,11 @@ mod tests {
                 mean_range: positions.mean_range(),
                 tints: &case.tints,
             };
+            let shade = OfPlanes(&case.planes);
             for space in ResolveSpace::ALL {
                 let mean = SampleMean::new(space, case.rate.samples(), Rules::Standard);
                 let (mut found, mut open) = (vec![0; case.places.len()], Vec::new());
-                if !super::bounded(&case.planes, bounded, &mean, &mut found, &mut open) {
+                if !case.colors(&shade).bounded(bounded, &mean, &mut found, &mut open) {
                     continue;
                 }
                 all += found.len();

@@ -24,11 +24,12 @@ use fearless_simd::{Simd, u8x16, u16x8, u32x4};
 use glam::DVec2;
 
 use super::PixelSampling;
-use super::bilinear::add;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
 use super::fixed_point::FRACTION_BITS;
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows, in_texture};
-use super::wrap::{self, Endless};
+use super::wrap::Endless;
+use super::{block_filter, sample_filter};
+use crate::color::Premultiplied16;
 
 /// Samples of a pixel that take little memory, and as many as there may be.
 pub(super) const FEW: usize = 16;
@@ -183,7 +184,7 @@ pub(super) fn sum<S: Simd, const N: usize>(
         for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
             let mask = masks.map(|masks| masks[lane]);
             *sum = if found.is_uncertain(lane) {
-                exact(plan, samples.side, *pixel, mask)
+                exact::<S, N>(simd, plan, samples.side, *pixel, mask)
             } else {
                 let texels = samples.level.level.texels();
                 match mask {
@@ -330,35 +331,47 @@ fn sum_some(texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize, mask: u
 
 /// The sum of a pixel's samples as they are decided one by one.
 #[cold]
-fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32; 4] {
+#[inline(never)]
+fn exact<S: Simd, const N: usize>(simd: S, plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32; 4] {
+    let samples = (0..side).flat_map(|row| (0..side).map(move |column| [column, row]));
+    let masked = samples.zip(0..).filter(|(_, i)| {
+        let bit = |mask: u64| mask.checked_shr(*i).unwrap_or(0) & 1;
+        mask.is_none_or(|mask| bit(mask) == 1)
+    });
     let mut sums = [0; 4];
-    for j in 0..side {
-        for i in 0..side {
-            if mask.is_some_and(|mask| mask.checked_shr(j * side + i).unwrap_or(0) & 1 == 0) {
-                continue;
-            }
-            let sample = |pixel: u16, inside: u32| u32::from(pixel) * side + inside;
-            add_sample(plan, [sample(pixel[0], i), sample(pixel[1], j)], &mut sums);
+    exact_colors::<S, N>(simd, plan, (side, pixel), masked.map(|(inside, _)| inside), |color| {
+        for (sum, channel) in sums.iter_mut().zip(color.0) {
+            *sum += u32::from(channel);
         }
-    }
-    sums.map(|sum: i32| sum.cast_unsigned() << 8)
+    });
+    sums
 }
 
-/// Adds the texel of one sample, in that column and row of the list's samples, as it is decided.
-pub(super) fn add_sample(plan: &Plan<'_>, sample: [u32; 2], sums: &mut [i32; 4]) {
-    let level = &plan.finer;
-    let from_pivot = plan.first + DVec2::from_array(sample.map(f64::from));
-    let at = |axis: &Axis| {
-        let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-        wrap::place(axis.last, (plan.wrap, plan.pixel), texels, None)
-    };
-    add(
-        level.level,
-        (plan.pixel, plan.wrap),
-        [at(&level.x), at(&level.y)],
-        1,
-        sums,
+/// Calls `each` with the colours of samples that lie there in a pixel, at most `N`, as they are decided one by one.
+#[inline(always)]
+pub(super) fn exact_colors<S: Simd, const N: usize>(
+    simd: S,
+    plan: &Plan<'_>,
+    (side, pixel): (u32, [u16; 2]),
+    inside: impl Iterator<Item = [u32; 2]>,
+    each: impl FnMut(Premultiplied16),
+) {
+    let (mut points, mut colors) = ([[0; 2]; N], [Premultiplied16::TRANSPARENT; N]);
+    let mut count = 0;
+    for (point, inside) in points.iter_mut().zip(inside) {
+        let sample = |axis: usize| u32::from(pixel[axis]) * side + inside[axis];
+        *point = [0, 1].map(|axis| u16::try_from(sample(axis)).unwrap_or(u16::MAX));
+        count += 1;
+    }
+    let (points, colors) = (&points[..count], &mut colors[..count]);
+    simd.vectorize(
+        #[inline(always)]
+        || match plan.block() {
+            Some(weights) => block_filter::filter_with(simd, plan, &weights, points, colors),
+            None => sample_filter::filter_with(simd, plan, points, colors),
+        },
     );
+    colors.iter().copied().for_each(each);
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::filter_plan::Plan;
 use super::fixed_point::FRACTION_BITS;
-use super::nearest_sums::{FEW, Found, MANY, NearestSamples, add_sample, is_uncertain};
+use super::nearest_sums::{FEW, Found, MANY, NearestSamples, exact_colors, is_uncertain};
 use super::texel_coordinates::MAX_LANES;
 
 /// Some pixels, where their samples lie, and what a byte counts.
@@ -97,7 +97,7 @@ fn sum_counted<S: Simd, const N: usize>(
         let counted = Counted::new(simd, samples, first, centres);
         for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
             if is_uncertain::<S>(counted.distance, lane) {
-                *sum = exact((plan, side), *pixel, list);
+                *sum = exact::<S, N>(simd, (plan, side), *pixel, list);
                 continue;
             }
             *sum = [0; 3];
@@ -125,7 +125,7 @@ fn sum_each<S: Simd, const N: usize>(
         found.find(simd, samples, pixels, middle);
         for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
             if found.is_uncertain(lane) {
-                *sum = exact((plan, side), *pixel, list);
+                *sum = exact::<S, N>(simd, (plan, side), *pixel, list);
                 continue;
             }
             *sum = [0; 3];
@@ -138,15 +138,23 @@ fn sum_each<S: Simd, const N: usize>(
 
 /// What the samples of a pixel count as they are decided one by one.
 #[cold]
-fn exact((plan, side): (&Plan<'_>, u32), pixel: [u16; 2], list: ValueList<'_>) -> [u64; 3] {
+#[inline(never)]
+fn exact<S: Simd, const N: usize>(
+    simd: S,
+    (plan, side): (&Plan<'_>, u32),
+    pixel: [u16; 2],
+    list: ValueList<'_>,
+) -> [u64; 3] {
     let mut sum = [0; 3];
-    for inside in list.inside {
-        let sample = [0, 1].map(|axis| u32::from(pixel[axis]) * side + u32::from(inside[axis]));
-        let mut texel = [0; 4];
-        add_sample(plan, sample, &mut texel);
-        let bytes = texel.map(|channel| u8::try_from(channel).unwrap_or(u8::MAX));
-        add(&mut sum, bytes, 1, list.values);
-    }
+    let inside = list.inside.iter().map(|place| place.map(u32::from));
+    exact_colors::<S, N>(simd, plan, (side, pixel), inside, |color| {
+        add(
+            &mut sum,
+            color.0.map(|channel| channel.to_be_bytes()[0]),
+            1,
+            list.values,
+        );
+    });
     sum
 }
 

@@ -39,23 +39,16 @@ impl SampleMean {
         }
     }
 
-    /// What each byte of an opaque sample counts.
-    pub fn byte_values(&self) -> &'static [u32; 256] {
-        static STORED: [u32; 256] = {
-            let (mut values, mut byte) = ([0; 256], 1);
-            while byte < values.len() {
-                values[byte] = values[byte - 1] + Premultiplied16::PER_BYTE as u32;
-                byte += 1;
-            }
-            values
-        };
+    /// The light of each byte of an opaque sample, where that is what is averaged, and not what is stored.
+    pub fn byte_light(&self) -> Option<&'static [u32; 256]> {
         match self {
-            Self::Stored(_) => &STORED,
-            Self::Linear(_) => LightResolver::of_bytes(),
+            Self::Stored(_) => None,
+            Self::Linear(_) => Some(LightResolver::of_bytes()),
         }
     }
 
-    /// The pixel of the sums over [`SampleMean::byte_values`] of as many samples as there are in one.
+    /// The pixel of the sums of red, green and blue, stored or of [`SampleMean::byte_light`], over as many opaque samples as there are
+    /// in one.
     #[inline]
     pub fn pixel_of_values(&self, sums: [u64; 3]) -> u32 {
         match self {
@@ -118,7 +111,11 @@ mod tests {
             for space in ResolveSpace::ALL {
                 let mean = SampleMean::new(space, count, rules);
                 for samples in bytes.chunks_exact(count as usize) {
-                    let value = |channel: u16| u64::from(mean.byte_values()[usize::from(channel >> 8)]);
+                    let light = mean.byte_light();
+                    let value = |channel: u16| match light {
+                        Some(light) => u64::from(light[usize::from(channel >> 8)]),
+                        None => u64::from(channel),
+                    };
                     let sums = [0, 1, 2].map(|k| samples.iter().map(|sample| value(sample.0[k])).sum());
                     assert_eq!(
                         mean.pixel_of_values(sums),

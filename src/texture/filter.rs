@@ -5,11 +5,13 @@ use glam::DVec2;
 
 use super::bilinear::mass;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
-use super::nearest_values::{self, ValueList};
+use super::nearest_values::ValueList;
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
-use super::{anisotropic_filter, block_filter, fixed_point, pixel_filter, sample_filter};
+use super::{
+    anisotropic_filter, block_filter, fixed_point, nearest_scattered, nearest_values, pixel_filter, sample_filter,
+};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -133,7 +135,15 @@ impl<'a> Filter<'a> {
     /// For each of the pixels what red, green and blue of the texels of its samples count, where each of these reads the nearest texel
     /// of one level; whether that is so. Sums over `list.pixels[i]` are written to `sums[i]`.
     pub fn value_sums(&self, simd: Level, grid: SampleGrid, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
-        self.pixel == PixelSampling::Nearest && nearest_values::sum(simd, &self.plan(grid), grid.side, list, sums)
+        if self.pixel != PixelSampling::Nearest {
+            return false;
+        }
+        let plan = self.plan(grid);
+        if list.inside.len() == list.count {
+            nearest_values::sum(simd, &plan, grid.side, list, sums)
+        } else {
+            nearest_scattered::sum(simd, &plan, grid.side, list, sums)
+        }
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {

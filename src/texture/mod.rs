@@ -25,6 +25,7 @@ mod footprint;
 mod level_choice;
 mod level_of_detail;
 mod light_bytes;
+mod nearest_scattered;
 mod nearest_sums;
 mod nearest_values;
 #[cfg(test)]
@@ -63,7 +64,7 @@ pub use filter_plan::PixelList;
 pub use footprint::Footprint;
 pub use level_choice::LevelChoice;
 pub use level_of_detail::Reading;
-pub use nearest_values::ValueList;
+pub use nearest_values::{ByteValues, ValueList};
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use pyramid_filter::PyramidFilter;
 pub use ripmap::Ripmap;

@@ -35,17 +35,17 @@ use crate::color::Premultiplied16;
 pub(super) const FEW: usize = 16;
 pub(super) const MANY: usize = 256;
 /// Where samples lie is known to less than half of this: three numbers are rounded by half a unit each.
-const UNCERTAIN: i32 = 4;
+pub(super) const UNCERTAIN: i32 = 4;
 /// How far samples may lie from their pixel's centre, in texels: with the largest level on one side of them, columns and rows
 /// fit 16 bits.
-const FARTHEST: f64 = 8000.0;
+pub(super) const FARTHEST: f64 = 8000.0;
 /// Centres outside a level are brought so near that all samples stay this far from it, in texels. One would do; no simple fraction
 /// leaves samples on the edges of texels, where each would be read again by itself.
-const AWAY: f64 = 1.381_966;
+pub(super) const AWAY: f64 = 1.381_966;
 /// Coordinates below this are exact to far less than a unit, however large the numbers that they are sums of.
-const LARGEST: f64 = (1_u64 << 30) as f64;
+pub(super) const LARGEST: f64 = (1_u64 << 30) as f64;
 /// No list reaches further from the pixel that it is counted from, in samples.
-const LIST: f64 = (1_u32 << 20) as f64;
+pub(super) const LIST: f64 = (1_u32 << 20) as f64;
 
 /// Where the samples of every pixel lie.
 #[derive(Debug)]

@@ -29,10 +29,21 @@ use super::texel_coordinates::MAX_LANES;
 pub struct ValueList<'a> {
     /// Column and row of each pixel, counted from the grid's origin.
     pub pixels: &'a [[u16; 2]],
-    /// Column and row of each sample in its pixel, the same in all of them.
+    /// Samples per pixel.
+    pub count: usize,
+    /// Column and row of each sample in its pixel, one pixel after the other; only those of one where they are the same in all.
     pub inside: &'a [[u8; 2]],
-    /// What each byte counts: at most `2^31`.
-    pub values: &'a [u32; 256],
+    /// What each byte counts.
+    pub values: ByteValues<'a>,
+}
+
+/// What each byte counts.
+#[derive(Clone, Copy, Debug)]
+pub enum ByteValues<'a> {
+    /// 256 times itself.
+    Stored,
+    /// What stands there, at most `2^31`.
+    Table(&'a [u32; 256]),
 }
 
 /// How many samples of a vector of pixels lie in each of the four texels that have any.
@@ -47,7 +58,8 @@ struct Counted<S: Simd> {
 #[derive(Clone, Copy)]
 struct FirstTexel([i32; 2]);
 
-/// Red, green and blue of what all samples of each pixel count; `false` where other texels than the nearest are read.
+/// Red, green and blue of what all samples of each pixel count, which lie in the same places in all; `false` where other texels than
+/// the nearest are read.
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
     if list.inside.len() > FEW {
         sum_of::<MANY>(level, plan, side, list, sums)
@@ -160,9 +172,13 @@ fn exact<S: Simd, const N: usize>(
 
 /// Adds what a texel counts, so many times.
 #[inline(always)]
-fn add(sum: &mut [u64; 3], [r, g, b, _]: [u8; 4], count: u32, values: &[u32; 256]) {
+pub(super) fn add(sum: &mut [u64; 3], [r, g, b, _]: [u8; 4], count: u32, values: ByteValues<'_>) {
     for (sum, byte) in sum.iter_mut().zip([r, g, b]) {
-        *sum += u64::from(values[usize::from(byte)]) * u64::from(count);
+        let value = match values {
+            ByteValues::Stored => u32::from(byte) << 8,
+            ByteValues::Table(values) => values[usize::from(byte)],
+        };
+        *sum += u64::from(value) * u64::from(count);
     }
 }
 
@@ -243,24 +259,21 @@ impl<S: Simd> Counted<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Filter, LevelSampling, PixelSampling, SamplingSettings, oracle};
+    use arbtest::arbitrary::Result;
+
+    use super::super::oracle;
     use super::*;
     use crate::simd;
 
     #[test]
     fn values_are_those_of_each_sample() {
-        let values = std::array::from_fn(|byte| u32::try_from(byte * byte).expect("a few bits") << 12 | 5);
+        let table = std::array::from_fn(|byte| u32::try_from(byte * byte).expect("a few bits") << 12 | 5);
         let (mut few, mut other) = (0, 0);
         arbtest::arbtest(|u| {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
             let grid = oracle::grid(u, &map)?;
-            let settings = SamplingSettings {
-                pixel: PixelSampling::Nearest,
-                level: LevelSampling::Zero,
-                ..oracle::settings(u)?
-            };
-            let filter = Filter::new(&pyramid, &map, &settings);
+            let filter = oracle::nearest(u, &pyramid, &map)?;
             let plan = filter.plan(grid);
             let side = u8::try_from(grid.side).expect("at most 16");
             let all = u32::from(side) * u32::from(side);
@@ -270,31 +283,17 @@ mod tests {
                     .collect()
             } else {
                 let mut at = || u.int_in_range(0..=side - 1);
-                (0..=all / 2)
-                    .map(|_| Ok([at()?, at()?]))
-                    .collect::<arbtest::arbitrary::Result<_>>()?
+                (0..=all / 2).map(|_| Ok([at()?, at()?])).collect::<Result<_>>()?
             };
             let mut pixel = || Ok([u.int_in_range(0..=70)?, u.int_in_range(0..=70)?]);
-            let pixels: Vec<[u16; 2]> = (0..21).map(|_| pixel()).collect::<arbtest::arbitrary::Result<_>>()?;
+            let pixels: Vec<[u16; 2]> = (0..21).map(|_| pixel()).collect::<Result<_>>()?;
             let list = ValueList {
                 pixels: &pixels,
+                count: inside.len(),
                 inside: &inside,
-                values: &values,
+                values: *u.choose(&[ByteValues::Stored, ByteValues::Table(&table)])?,
             };
-            let expected: Vec<[u64; 3]> = pixels
-                .iter()
-                .map(|pixel| {
-                    let mut sum = [0; 3];
-                    for inside in &inside {
-                        let at = |axis: usize| u32::from(pixel[axis]) * grid.side + u32::from(inside[axis]);
-                        let color = oracle::point(&plan, [at(0), at(1)]);
-                        for (sum, channel) in sum.iter_mut().zip(color.0) {
-                            *sum += u64::from(values[usize::from(channel >> 8)]);
-                        }
-                    }
-                    sum
-                })
-                .collect();
+            let expected = oracle::value_sums(&plan, grid.side, list);
             for (name, level) in simd::tested() {
                 let mut found = vec![[0; 3]; pixels.len()];
                 if !sum(level, &plan, grid.side, list, &mut found) {

@@ -12,6 +12,7 @@ use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
 use super::filter_plan::Plan;
+use super::nearest_values::{ByteValues, ValueList};
 use super::sample_offsets::{Footing, Footings, Scale};
 use super::wrap::Endless;
 use super::{
@@ -261,6 +262,40 @@ pub(super) fn grid(u: &mut Unstructured<'_>, map: &UvMap) -> Result<SampleGrid> 
 
 pub(super) fn filter<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map: &UvMap) -> Result<Filter<'a>> {
     Ok(Filter::new(pyramid, map, &settings(u)?))
+}
+
+/// A filter that reads the nearest texel of the first level.
+pub(super) fn nearest<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map: &UvMap) -> Result<Filter<'a>> {
+    let settings = SamplingSettings {
+        pixel: PixelSampling::Nearest,
+        level: LevelSampling::Zero,
+        ..settings(u)?
+    };
+    Ok(Filter::new(pyramid, map, &settings))
+}
+
+/// What all samples of each pixel count, sample by sample.
+pub(super) fn value_sums(plan: &Plan<'_>, side: u32, list: ValueList<'_>) -> Vec<[u64; 3]> {
+    let of_pixel = |(i, pixel): (usize, &[u16; 2])| {
+        let mut sum = [0; 3];
+        let first = if list.inside.len() == list.count {
+            0
+        } else {
+            i * list.count
+        };
+        for inside in &list.inside[first..first + list.count] {
+            let at = |axis: usize| u32::from(pixel[axis]) * side + u32::from(inside[axis]);
+            let color = point(plan, [at(0), at(1)]);
+            for (sum, channel) in sum.iter_mut().zip(color.0) {
+                *sum += u64::from(match list.values {
+                    ByteValues::Stored => u32::from(channel),
+                    ByteValues::Table(values) => values[usize::from(channel >> 8)],
+                });
+            }
+        }
+        sum
+    };
+    list.pixels.iter().enumerate().map(of_pixel).collect()
 }
 
 /// Any way to read a texture under the standard rules; half of them with one tap and no more than the footprint says.

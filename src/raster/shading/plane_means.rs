@@ -483,6 +483,6 @@ mod tests {
             Ok(())
         })
         .budget_ms(800);
-        assert!(certain * 2 > all && all > 200, "{certain} of {all} are certain");
+        assert!(certain * 5 > all && all > 200, "{certain} of {all} are certain");
     }
 }

@@ -13,7 +13,8 @@ use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::{
-    AreaFilter, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture, UvMap, ValueList,
+    AreaFilter, ByteValues, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture,
+    UvMap, ValueList,
 };
 
 /// Most samples along the side of a pixel of which a filter takes sums by masks.
@@ -143,14 +144,14 @@ impl Shade for TextureShader<'_> {
         let Reader::Standard(filter) = &self.reader else {
             return false;
         };
-        let are_plain = placed.are_same() && placed.tints.is_empty();
         let mut sums = vec![[0; 3]; values.len()];
         let list = ValueList {
             pixels: placed.pixels.places,
+            count: placed.count,
             inside: placed.inside,
-            values: mean.byte_values(),
+            values: mean.byte_light().map_or(ByteValues::Stored, ByteValues::Table),
         };
-        if !are_plain || !filter.value_sums(simd::level(), placed.pixels.grid, list, &mut sums) {
+        if !placed.tints.is_empty() || !filter.value_sums(simd::level(), placed.pixels.grid, list, &mut sums) {
             return false;
         }
         for (value, sum) in values.iter_mut().zip(&sums) {

@@ -1,0 +1,267 @@
+//! What the bytes of the nearest texels count, summed over pixels whose samples lie elsewhere in each.
+//!
+//! A sample's texel is `corner + right * column + down * row` on both axes. Columns and rows fit 8 bits, and steps are taken apart
+//! into high and low parts of 16 bits: of these a machine multiplies and adds two for each of sixteen samples in one instruction.
+//!
+//! As in `nearest_sums`, pixels with a sample so close to the edge of a texel that rounding might have carried it across are read
+//! again, sample by sample.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, i16x32, i32x16, u8x16, u8x32, u16x8, u32x4, u32x16};
+
+use super::PixelSampling;
+use super::filter_plan::{Axis, GridLevel, Plan};
+use super::fixed_point::FRACTION_BITS;
+use super::nearest_sums::{AWAY, FARTHEST, LARGEST, LIST, MANY, UNCERTAIN, exact_colors};
+use super::nearest_values::{ByteValues, ValueList, add};
+use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
+
+/// Samples that are looked at together.
+const TOGETHER: usize = 16;
+
+/// The steps from one point of a pixel's lattice to the next on one axis of a level, in units of fixed point.
+#[derive(Clone, Copy, Debug)]
+struct Steps {
+    /// High and low parts, each a pair in a word: that to the right lower.
+    high: u32,
+    low: u32,
+    /// Corners that far outside the level have no sample in it, in texels.
+    reach: f64,
+}
+
+/// A level, and the steps on both axes.
+#[derive(Clone, Copy, Debug)]
+struct Scattered<'a> {
+    level: GridLevel<'a>,
+    x: Steps,
+    y: Steps,
+}
+
+/// Red, green and blue of what all samples of each pixel count; `false` where other texels than the nearest of one level are read,
+/// or numbers do not fit.
+pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
+    let Some(scattered) = Scattered::new(plan, side).filter(|_| list.count.is_multiple_of(TOGETHER)) else {
+        return false;
+    };
+    dispatch!(level, simd => sum_with(simd, (plan, side), &scattered, list, sums));
+    true
+}
+
+#[inline(always)]
+fn sum_with<S: Simd>(
+    simd: S,
+    (plan, side): (&Plan<'_>, u32),
+    scattered: &Scattered<'_>,
+    list: ValueList<'_>,
+    sums: &mut [[u64; 3]],
+) {
+    let lanes = S::u32s::LEN;
+    let places = list.inside.chunks_exact(list.count * lanes);
+    let rest = places.remainder();
+    let places = places.chain([rest]);
+    for ((pixels, sums), places) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).zip(places) {
+        let [columns, rows] = columns_and_rows(simd, pixels);
+        let size = S::f32s::splat(simd, side as f32);
+        let at = Positions::new(simd, [columns * size, rows * size], plan.first);
+        let (mut x, mut y) = ([0; MAX_LANES], [0; MAX_LANES]);
+        let Scattered {
+            level,
+            x: across,
+            y: down,
+        } = scattered;
+        at.around(simd, &level.x, across.reach).store_slice(&mut x[..lanes]);
+        at.around(simd, &level.y, down.reach).store_slice(&mut y[..lanes]);
+        for (((pixel, sum), inside), corner) in pixels
+            .iter()
+            .zip(sums)
+            .zip(places.chunks_exact(list.count))
+            .zip(x.iter().zip(&y))
+        {
+            *sum = match scattered.sum(simd, [*corner.0, *corner.1], inside, list.values) {
+                Some(sum) => sum,
+                None => exact(simd, (plan, side), *pixel, inside, list.values),
+            };
+        }
+    }
+}
+
+/// What the samples of a pixel count as they are decided one by one.
+#[cold]
+#[inline(never)]
+fn exact<S: Simd>(
+    simd: S,
+    (plan, side): (&Plan<'_>, u32),
+    pixel: [u16; 2],
+    inside: &[[u8; 2]],
+    values: ByteValues<'_>,
+) -> [u64; 3] {
+    let mut sum = [0; 3];
+    let inside = inside.iter().map(|place| place.map(u32::from));
+    exact_colors::<S, MANY>(simd, plan, (side, pixel), inside, |color| {
+        add(&mut sum, color.0.map(|channel| channel.to_be_bytes()[0]), 1, values);
+    });
+    sum
+}
+
+impl<'a> Scattered<'a> {
+    fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
+        let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
+        let level = plan.finer;
+        if !is_one || plan.endless(&level.x).is_some() || plan.endless(&level.y).is_some() {
+            return None;
+        }
+        let steps = |axis: &Axis| {
+            let farthest = plan.first.abs() + LIST;
+            let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
+            Steps::new(axis, side).filter(|steps| largest < LARGEST && steps.reach < FARTHEST)
+        };
+        Some(Self {
+            x: steps(&level.x)?,
+            y: steps(&level.y)?,
+            level,
+        })
+    }
+
+    /// Of the pixel whose lattice begins there, in fixed point; `None` where a sample is too close to the edge of a texel.
+    #[inline(always)]
+    fn sum<S: Simd>(&self, simd: S, corner: [i32; 2], inside: &[[u8; 2]], values: ByteValues<'_>) -> Option<[u64; 3]> {
+        let number = |value: i32| i32x16::splat(simd, value);
+        let level = self.level.level;
+        let last = [level.width(), level.height()].map(|size| size.cast_signed() - 1);
+        let last: i16x32<S> = number(last[0] | last[1] << 16).bitcast();
+        let stride: i16x32<S> = number(1 | level.stride().cast_signed() << 16).bitcast();
+        let fraction = number((1 << FRACTION_BITS) - 1);
+        let (mut sum, mut distance) = ([0; 3], number(i32::MAX));
+        for inside in inside.as_chunks::<TOGETHER>().0 {
+            let (first, second) = u8x32::from_slice(simd, inside.as_flattened()).widen();
+            let places: i16x32<S> = first.combine(second).bitcast();
+            let x = self.x.along(simd, places, corner[0]);
+            let y = self.y.along(simd, places, corner[1]);
+            distance = distance.min(x & fraction).min(y & fraction);
+            let at: i16x32<S> = ((x >> FRACTION_BITS) & number(0xFFFF) | y >> FRACTION_BITS << 16).bitcast();
+            let texels = at.max(i16x32::splat(simd, 0)).min(last).pairwise_dot_product(stride);
+            let found = texels.bitcast::<u32x16<S>>().to_array();
+            match values {
+                ByteValues::Stored => {
+                    for (sum, found) in sum.iter_mut().zip(stored(simd, level.texels(), &found)) {
+                        *sum += u64::from(found);
+                    }
+                }
+                ByteValues::Table(_) => {
+                    for texel in found {
+                        add(&mut sum, level.texels()[texel as usize], 1, values);
+                    }
+                }
+            }
+        }
+        distance.simd_ge(number(UNCERTAIN)).all_true().then_some(sum)
+    }
+}
+
+impl Steps {
+    /// `None` where they do not fit.
+    #[expect(clippy::cast_possible_truncation, reason = "small numbers, as was asked before")]
+    fn new(axis: &Axis, side: u32) -> Option<Self> {
+        let reach = (axis.right.abs() + axis.down.abs()) * f64::from(side - 1) + AWAY;
+        let steps = [axis.right, axis.down].map(|step| (step * f64::from(1 << FRACTION_BITS) * 65_536.0).round());
+        // With a half more the high part has 16 bits.
+        if !steps.iter().all(|step| step.abs() < f64::from(i32::MAX - (1 << 15))) {
+            return None;
+        }
+        let high = steps.map(|step| (step as i32 + (1 << 15)) >> 16);
+        let low = [0, 1].map(|i| steps[i] as i32 - (high[i] << 16));
+        let word = |[right, down]: [i32; 2]| right.cast_unsigned() & 0xFFFF | down.cast_unsigned() << 16;
+        Some(Self {
+            high: word(high),
+            low: word(low),
+            reach,
+        })
+    }
+
+    /// Where samples lie on the axis, from the corner of their pixel, and half of [`UNCERTAIN`] more.
+    #[inline(always)]
+    fn along<S: Simd>(self, simd: S, places: i16x32<S>, corner: i32) -> i32x16<S> {
+        let sums = |steps: u32, from: i32| {
+            let steps: i16x32<S> = u32x16::splat(simd, steps).bitcast();
+            places.pairwise_dot_product(steps) + i32x16::splat(simd, from)
+        };
+        sums(self.high, corner + UNCERTAIN / 2) + (sums(self.low, 1 << 15) >> 16)
+    }
+}
+
+/// The sums of the bytes of red, green and blue, each 256 times itself.
+#[inline(always)]
+fn stored<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[u32; TOGETHER]) -> [u32; 3] {
+    let zero = u8x16::splat(simd, 0);
+    // Of every second sample: they fit 16 bits.
+    let mut halves = u16x8::splat(simd, 0);
+    for four in found.as_chunks::<4>().0 {
+        let four = four.map(|texel| u32::from_le_bytes(texels[texel as usize]));
+        let bytes: u8x16<S> = u32x4::simd_from(simd, four).bitcast();
+        halves += bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>();
+    }
+    let halves = halves.to_array();
+    [0, 1, 2].map(|i| (u32::from(halves[i]) + u32::from(halves[i + 4])) << 8)
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::Result;
+
+    use super::super::{SampleGrid, oracle};
+    use super::*;
+    use crate::simd;
+
+    #[test]
+    fn values_are_those_of_each_sample() {
+        const PIXELS: usize = 19;
+        let table = std::array::from_fn(|byte| u32::try_from(byte * byte).expect("a few bits") << 12 | 5);
+        let mut taken = 0;
+        arbtest::arbtest(|u| {
+            let pyramid = oracle::pyramid(u)?;
+            let mut map = oracle::map(u, &pyramid.levels()[0])?;
+            if u.arbitrary()? {
+                // Samples on the very edges of texels.
+                let [width, height] = [pyramid.levels()[0].width(), pyramid.levels()[0].height()].map(f64::from);
+                (map.dx, map.dy) = (glam::DVec2::X / width, glam::DVec2::Y / height / 2.0);
+            }
+            let grid = SampleGrid {
+                side: *u.choose(&[4, 16, 256])?,
+                origin: [u.int_in_range(-40..=40)?, u.int_in_range(-40..=40)?],
+            };
+            let filter = oracle::nearest(u, &pyramid, &map)?;
+            let plan = filter.plan(grid);
+            let count = *u.choose(&[16, 16, 48])?;
+            let most = u8::try_from(grid.side - 1).expect("a byte");
+            let mut at = || u.int_in_range(0..=most);
+            let inside = (0..count * PIXELS)
+                .map(|_| Ok([at()?, at()?]))
+                .collect::<Result<Vec<[u8; 2]>>>()?;
+            let mut pixel = || Ok([u.int_in_range(0..=70)?, u.int_in_range(0..=70)?]);
+            let pixels: Vec<[u16; 2]> = (0..PIXELS).map(|_| pixel()).collect::<Result<_>>()?;
+            let list = ValueList {
+                pixels: &pixels,
+                count,
+                inside: &inside,
+                values: *u.choose(&[ByteValues::Stored, ByteValues::Table(&table)])?,
+            };
+            let expected = oracle::value_sums(&plan, grid.side, list);
+            for (name, level) in simd::tested() {
+                let mut found = vec![[0; 3]; pixels.len()];
+                if !sum(level, &plan, grid.side, list, &mut found) {
+                    return Ok(());
+                }
+                assert_eq!(found, expected, "{name}: {filter:?} {grid:?}");
+            }
+            taken += 1;
+            Ok(())
+        })
+        .budget_ms(if cfg!(feature = "scalar") { 8000 } else { 1500 });
+        assert!(taken > 20, "{taken} were summed");
+    }
+}

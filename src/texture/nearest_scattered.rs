@@ -60,32 +60,35 @@ fn sum_with<S: Simd>(
     list: ValueList<'_>,
     sums: &mut [[u64; 3]],
 ) {
-    let lanes = S::u32s::LEN;
-    let places = list.inside.chunks_exact(list.count * lanes);
-    let rest = places.remainder();
-    let places = places.chain([rest]);
-    for ((pixels, sums), places) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).zip(places) {
-        let [columns, rows] = columns_and_rows(simd, pixels);
-        let size = S::f32s::splat(simd, side as f32);
-        let at = Positions::new(simd, [columns * size, rows * size], plan.first);
-        let (mut x, mut y) = ([0; MAX_LANES], [0; MAX_LANES]);
-        let Scattered {
-            level,
-            x: across,
-            y: down,
-        } = scattered;
-        at.around(simd, &level.x, across.reach).store_slice(&mut x[..lanes]);
-        at.around(simd, &level.y, down.reach).store_slice(&mut y[..lanes]);
-        for (((pixel, sum), inside), corner) in pixels
-            .iter()
-            .zip(sums)
-            .zip(places.chunks_exact(list.count))
-            .zip(x.iter().zip(&y))
-        {
-            *sum = match scattered.sum(simd, [*corner.0, *corner.1], inside, list.values) {
-                Some(sum) => sum,
-                None => exact(simd, (plan, side), *pixel, inside, list.values),
-            };
+    let places = list.inside.chunks(list.count * MAX_LANES);
+    let lists = list
+        .pixels
+        .chunks(MAX_LANES)
+        .zip(sums.chunks_mut(MAX_LANES))
+        .zip(places);
+    let mut texels = [[0; TOGETHER]; MAX_LANES];
+    for ((pixels, sums), inside) in lists {
+        let corners = scattered.corners(simd, plan, side, pixels);
+        let mut distances = [i32x16::splat(simd, i32::MAX); MAX_LANES];
+        sums.fill([0; 3]);
+        for first in (0..list.count).step_by(TOGETHER) {
+            // All texels are found before any is read: what has just been stored is read again from memory, not taken apart.
+            let of_pixels = inside.chunks_exact(list.count).zip(&corners).zip(&mut distances);
+            for (((inside, corner), distance), texels) in of_pixels.zip(&mut texels) {
+                let Some(inside) = inside[first..].first_chunk() else {
+                    continue;
+                };
+                *distance = scattered.find(simd, *corner, inside, texels).min(*distance);
+            }
+            for (sum, texels) in sums.iter_mut().zip(&texels) {
+                scattered.add(simd, texels, list.values, sum);
+            }
+        }
+        let of_pixels = inside.chunks_exact(list.count).zip(distances).zip(pixels);
+        for (((inside, distance), pixel), sum) in of_pixels.zip(sums) {
+            if distance.simd_lt(i32x16::splat(simd, UNCERTAIN)).any_true() {
+                *sum = exact(simd, (plan, side), *pixel, inside, list.values);
+            }
         }
     }
 }
@@ -127,39 +130,65 @@ impl<'a> Scattered<'a> {
         })
     }
 
-    /// Of the pixel whose lattice begins there, in fixed point; `None` where a sample is too close to the edge of a texel.
+    /// Where the lattices of some pixels begin, in fixed point.
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, corner: [i32; 2], inside: &[[u8; 2]], values: ByteValues<'_>) -> Option<[u64; 3]> {
+    fn corners<S: Simd>(&self, simd: S, plan: &Plan<'_>, side: u32, pixels: &[[u16; 2]]) -> [[i32; 2]; MAX_LANES] {
+        let lanes = S::u32s::LEN;
+        let mut corners = [[0; 2]; MAX_LANES];
+        for (pixels, corners) in pixels.chunks(lanes).zip(corners.chunks_mut(lanes)) {
+            let [columns, rows] = columns_and_rows(simd, pixels);
+            let size = S::f32s::splat(simd, side as f32);
+            let at = Positions::new(simd, [columns * size, rows * size], plan.first);
+            let x = at.around(simd, &self.level.x, self.x.reach);
+            let y = at.around(simd, &self.level.y, self.y.reach);
+            for (corner, (x, y)) in corners.iter_mut().zip(x.as_slice().iter().zip(y.as_slice())) {
+                *corner = [*x, *y];
+            }
+        }
+        corners
+    }
+
+    /// Finds the texels of some samples of the pixel whose lattice begins there, and how far each is from the edges of its texel.
+    #[inline(always)]
+    fn find<S: Simd>(
+        &self,
+        simd: S,
+        corner: [i32; 2],
+        inside: &[[u8; 2]; TOGETHER],
+        texels: &mut [u32; TOGETHER],
+    ) -> i32x16<S> {
         let number = |value: i32| i32x16::splat(simd, value);
         let level = self.level.level;
         let last = [level.width(), level.height()].map(|size| size.cast_signed() - 1);
         let last: i16x32<S> = number(last[0] | last[1] << 16).bitcast();
         let stride: i16x32<S> = number(1 | level.stride().cast_signed() << 16).bitcast();
         let fraction = number((1 << FRACTION_BITS) - 1);
-        let (mut sum, mut distance) = ([0; 3], number(i32::MAX));
-        for inside in inside.as_chunks::<TOGETHER>().0 {
-            let (first, second) = u8x32::from_slice(simd, inside.as_flattened()).widen();
-            let places: i16x32<S> = first.combine(second).bitcast();
-            let x = self.x.along(simd, places, corner[0]);
-            let y = self.y.along(simd, places, corner[1]);
-            distance = distance.min(x & fraction).min(y & fraction);
-            let at: i16x32<S> = ((x >> FRACTION_BITS) & number(0xFFFF) | y >> FRACTION_BITS << 16).bitcast();
-            let texels = at.max(i16x32::splat(simd, 0)).min(last).pairwise_dot_product(stride);
-            let found = texels.bitcast::<u32x16<S>>().to_array();
-            match values {
-                ByteValues::Stored => {
-                    for (sum, found) in sum.iter_mut().zip(stored(simd, level.texels(), &found)) {
-                        *sum += u64::from(found);
-                    }
+        let (first, second) = u8x32::from_slice(simd, inside.as_flattened()).widen();
+        let places: i16x32<S> = first.combine(second).bitcast();
+        let x = self.x.along(simd, places, corner[0]);
+        let y = self.y.along(simd, places, corner[1]);
+        let at: i16x32<S> = ((x >> FRACTION_BITS) & number(0xFFFF) | y >> FRACTION_BITS << 16).bitcast();
+        let found = at.max(i16x32::splat(simd, 0)).min(last).pairwise_dot_product(stride);
+        found.bitcast::<u32x16<S>>().store_slice(texels);
+        (x & fraction).min(y & fraction)
+    }
+
+    /// Adds what some texels count.
+    #[inline(always)]
+    fn add<S: Simd>(&self, simd: S, found: &[u32; TOGETHER], values: ByteValues<'_>, sum: &mut [u64; 3]) {
+        let texels = self.level.level.texels();
+        match values {
+            ByteValues::Stored => {
+                for (sum, found) in sum.iter_mut().zip(stored(simd, texels, found)) {
+                    *sum += u64::from(found);
                 }
-                ByteValues::Table(_) => {
-                    for texel in found {
-                        add(&mut sum, level.texels()[texel as usize], 1, values);
-                    }
+            }
+            ByteValues::Table(_) => {
+                for texel in found {
+                    add(sum, texels[*texel as usize], 1, values);
                 }
             }
         }
-        distance.simd_ge(number(UNCERTAIN)).all_true().then_some(sum)
     }
 }
 

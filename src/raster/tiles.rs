@@ -174,15 +174,12 @@ impl DisplayList<'_> {
             }
             Method::Visibility(_) => {
                 resolving = start.map(|_| Instant::now());
-                if self.settings.filter.is_plain() {
+                if let Some((colors, wide)) = painters.per_sample.begin_wide(painted) {
+                    painters.visibility.resolve_wide(colors, wide, block);
+                } else {
                     // Shading comes in between, and is none of it.
                     let shading = painters.visibility.resolve(block, start.is_some());
                     resolving = resolving.and_then(|start| start.checked_add(shading));
-                } else {
-                    painters
-                        .visibility
-                        .put_colors(painters.per_sample.begin_painted(painted));
-                    painters.per_sample.resolve_tile(block);
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.visibility.samples_shaded);
             }

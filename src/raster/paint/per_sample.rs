@@ -99,11 +99,13 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
-    /// Where what the samples of a tile show may be put that was painted elsewhere.
-    pub(crate) fn begin_painted(&mut self, rect: SpanRect) -> &mut SampleColors {
+    /// Where pixels take samples of their neighbours: where to put what those of a tile show that was painted elsewhere, and what
+    /// resolves it.
+    pub(crate) fn begin_wide(&mut self, rect: SpanRect) -> Option<(&mut SampleColors, &mut WideResolve)> {
+        let wide = self.wide.as_mut()?;
         let tile = self.layers.restart();
-        tile.reset(rect, Premultiplied16::TRANSPARENT);
-        tile
+        tile.reset_to_put(rect);
+        Some((tile, wide))
     }
 
     /// Resolves the finished tile, of which `block` are the pixels that it has in the frame.

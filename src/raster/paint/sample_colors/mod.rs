@@ -94,6 +94,17 @@ impl SampleColors {
         self.split.resize(pixels, false);
     }
 
+    /// Makes it the tile of `rect`, whose pixels show anything until they are replaced: see [`SampleColors::row_to_put`].
+    pub(in crate::raster) fn reset_to_put(&mut self, rect: SpanRect) {
+        self.rect = rect;
+        self.painted = SpanRect::EMPTY;
+        self.opaque = false;
+        self.width = rect.x.length();
+        let pixels = self.width * rect.y.length();
+        self.whole.resize(pixels, Premultiplied16::TRANSPARENT);
+        self.split.resize(pixels, false);
+    }
+
     /// Row `y` of the frame, to be replaced: the colours of pixels that show one, which pixels show several, and the samples of all.
     pub(in crate::raster) fn row_to_put(
         &mut self,

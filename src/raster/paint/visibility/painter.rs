@@ -280,6 +280,7 @@ mod tests {
     use crate::raster::list::context::ListContext;
     use crate::raster::paint::sample_colors::SampleColors;
     use crate::raster::paint::visibility::paint_stack::MOST;
+    use crate::raster::paint::wide::flat::PixelBits;
     use crate::raster::random::{fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::span::Span;
@@ -380,7 +381,7 @@ mod tests {
                 if rounding == Rounding::Sums {
                     let mut colors = SampleColors::new(settings.rate, settings.sampling.rules, settings.space);
                     colors.reset(rect, Premultiplied16::TRANSPARENT);
-                    painters.visibility.put_colors(&mut colors);
+                    painters.visibility.put_colors(&mut colors, |_| PixelBits::ALL);
                     for (row, y) in found.chunks_exact_mut(width).zip(rect.y.start..) {
                         colors.resolve(y, row);
                     }

@@ -1,5 +1,7 @@
 //! Pixels in the middle of pixels that all show one and the same colour: whatever these weigh, the sum is that colour.
 //!
+//! They are found by their colours, or, before there are any, by their surfaces.
+//!
 //! ```text
 //!      a a a a b        of a row: whole pixels with as many like them to the right as lie around a pixel
 //!      a a a a b        of two rows: pixels like those above
@@ -22,7 +24,7 @@ use crate::simd;
 
 /// Which pixels of a tile are flat.
 #[derive(Debug, Default)]
-pub(super) struct FlatPixels {
+pub(in crate::raster::paint) struct FlatPixels {
     /// Pixels in a row of the tile.
     width: usize,
     /// Row by row, which pixels are not flat.
@@ -33,31 +35,59 @@ pub(super) struct FlatPixels {
     down: Vec<u128>,
 }
 
+/// What of a painted row is alike, the first pixel in the lowest bit; nobody asks for bits beyond the last pixel.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::raster::paint) struct RowLikeness {
+    /// Pixels that are not split.
+    pub(in crate::raster::paint) whole: u128,
+    /// Of these the ones that show what the next pixel shows, which is not split either.
+    pub(in crate::raster::paint) pairs: u128,
+    /// And those that show what the pixel above shows, which need not be right where that is split.
+    pub(in crate::raster::paint) above: u128,
+}
+
 /// Some pixels of a row of a tile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PixelBits(u64);
+pub(in crate::raster::paint) struct PixelBits(u64);
 
 impl PixelBits {
+    pub(in crate::raster::paint) const ALL: Self = Self(u64::MAX);
+
+    /// The first pixel in the lowest bit.
+    pub(in crate::raster::paint) fn word(self) -> u64 {
+        self.0
+    }
+
+    /// Those of the first `count`.
+    pub(in crate::raster::paint) fn first(self, count: usize) -> Self {
+        Self(self.0 & u64::MAX >> (64 - count.clamp(1, 64)))
+    }
+
     /// Those of either.
-    pub(super) fn union(self, other: Self) -> Self {
+    pub(in crate::raster::paint) fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    pub(super) fn is_empty(self) -> bool {
+    pub(in crate::raster::paint) fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    pub(super) fn contains(self, x: usize) -> bool {
+    pub(in crate::raster::paint) fn contains(self, x: usize) -> bool {
         x < 64 && self.0 >> x & 1 == 1
     }
 
+    /// These, and as many to the right of each.
+    pub(in crate::raster::paint) fn widened(self, by: usize) -> Self {
+        Self((0..=by.min(63)).fold(0, |all, by| all | self.0 << by))
+    }
+
     /// The others of the first `count`.
-    pub(super) fn others(self, count: usize) -> Self {
-        Self(!self.0 & u64::MAX >> (64 - count.clamp(1, 64)))
+    pub(in crate::raster::paint) fn others(self, count: usize) -> Self {
+        Self(!self.0).first(count)
     }
 
     /// The pixels as runs side by side, from left to right.
-    pub(super) fn runs(self) -> impl Iterator<Item = Range<usize>> {
+    pub(in crate::raster::paint) fn runs(self) -> impl Iterator<Item = Range<usize>> {
         let mut rest = self.0;
         let mut at = 0;
         std::iter::from_fn(move || {
@@ -78,34 +108,62 @@ impl PixelBits {
 impl FlatPixels {
     /// Looks at a tile that was painted with so many pixels around it.
     pub(super) fn find(&mut self, colors: &SampleColors, margin: usize) {
-        let (beside, level) = (2 * margin, simd::level());
-        self.width = colors.width() - beside;
-        self.across.clear();
-        self.down.clear();
+        let level = simd::level();
+        self.begin(colors.width(), margin);
         for y in 0..colors.rect.y.length() {
             let (row, is_split) = colors.row(y);
             let above = y.checked_sub(1).map(|above| colors.row(above));
-            let is_repeated = above.is_some_and(|(above, was_split)| above == row && was_split == is_split);
-            let across = match self.across.last() {
-                Some(last) if is_repeated => *last,
-                _ => {
-                    let whole = dispatch!(level, simd => whole(simd, is_split));
-                    let pairs = dispatch!(level, simd => alike(simd, &row[..row.len() - 1], &row[1..]));
-                    let alike = pairs & whole & whole >> 1;
-                    shifted(alike, beside) & whole
-                }
-            };
-            let down = match above {
-                _ if is_repeated => across,
-                Some((above, was_split)) => {
-                    // Above they are whole where they start as many that are; elsewhere nobody asks.
-                    across & dispatch!(level, simd => alike(simd, row, above) & whole(simd, was_split))
-                }
-                None => 0,
-            };
-            self.across.push(across);
-            self.down.push(down);
+            if above.is_some_and(|(above, was_split)| above == row && was_split == is_split) {
+                self.repeat();
+                continue;
+            }
+            let whole_here = dispatch!(level, simd => whole(simd, is_split));
+            let pairs = dispatch!(level, simd => alike(simd, &row[..row.len() - 1], &row[1..]));
+            let above = above.map_or(
+                0,
+                |(above, was_split)| dispatch!(level, simd => alike(simd, row, above) & whole(simd, was_split)),
+            );
+            self.push(
+                RowLikeness {
+                    whole: whole_here,
+                    pairs: pairs & whole_here & whole_here >> 1,
+                    above,
+                },
+                margin,
+            );
         }
+        self.finish(margin);
+    }
+
+    /// Starts a tile of which so many pixels of a row are painted, `margin` of them on each side of its own.
+    #[inline]
+    pub(in crate::raster::paint) fn begin(&mut self, painted: usize, margin: usize) {
+        self.width = painted - 2 * margin;
+        self.across.clear();
+        self.down.clear();
+    }
+
+    /// Notes the next painted row, from above.
+    #[inline]
+    pub(in crate::raster::paint) fn push(&mut self, row: RowLikeness, margin: usize) {
+        let across = shifted(row.pairs, 2 * margin) & row.whole;
+        self.across.push(across);
+        // Above, too, they are whole where they start as many that are; elsewhere nobody asks.
+        self.down.push(across & row.above);
+    }
+
+    /// Notes a row that shows what the one above shows.
+    #[inline]
+    pub(in crate::raster::paint) fn repeat(&mut self) {
+        let across = self.across.last().copied().unwrap_or(0);
+        self.across.push(across);
+        self.down.push(across);
+    }
+
+    /// Finds the flat pixels once all rows are noted.
+    #[inline]
+    pub(in crate::raster::paint) fn finish(&mut self, margin: usize) {
+        let beside = 2 * margin;
         let rows = self.across.len().saturating_sub(beside);
         self.mixed.clear();
         self.mixed.extend((0..rows).map(|y| {
@@ -117,22 +175,22 @@ impl FlatPixels {
     }
 
     /// Whether all pixels are flat.
-    pub(super) fn are_all(&self) -> bool {
+    pub(in crate::raster::paint) fn are_all(&self) -> bool {
         self.mixed.iter().all(|row| row.is_empty())
     }
 
     /// Pixels in a row.
-    pub(super) fn width(&self) -> usize {
+    pub(in crate::raster::paint) fn width(&self) -> usize {
         self.width
     }
 
     /// Rows of pixels.
-    pub(super) fn height(&self) -> usize {
+    pub(in crate::raster::paint) fn height(&self) -> usize {
         self.mixed.len()
     }
 
     /// The columns around whose pixel in a painted row lies one that is not flat, up to `margin` rows above or below.
-    pub(super) fn around(&self, painted: usize, margin: usize) -> PixelBits {
+    pub(in crate::raster::paint) fn around(&self, painted: usize, margin: usize) -> PixelBits {
         let rows = painted.saturating_sub(2 * margin)..self.height().min(painted + 1);
         self.mixed[rows]
             .iter()
@@ -140,7 +198,7 @@ impl FlatPixels {
     }
 
     /// The pixels of a row that are not flat.
-    pub(super) fn mixed(&self, y: usize) -> PixelBits {
+    pub(in crate::raster::paint) fn mixed(&self, y: usize) -> PixelBits {
         self.mixed[y]
     }
 }
@@ -195,6 +253,7 @@ fn word(color: Premultiplied16) -> u64 {
 }
 
 /// Bits that are followed by ones: so many, with themselves.
+#[inline]
 fn shifted(bits: u128, count: usize) -> u128 {
     (0..count).fold(u128::MAX, |all, by| all & bits >> by)
 }

@@ -16,7 +16,7 @@
 //! an eighth of what evenly spread samples would weigh is the mean of its own samples.
 
 mod dot_sums;
-mod flat;
+pub(in crate::raster::paint) mod flat;
 mod free;
 mod separable;
 
@@ -97,9 +97,24 @@ impl WideResolve {
 
     /// Resolves the pixels of `block` from the samples around them.
     pub(in crate::raster) fn resolve(&mut self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
-        let margin = self.samples.weights.margin().cast_unsigned() as usize;
-        self.flat.find(colors, margin);
+        self.flat.find(colors, self.margin());
         self.put_flat(colors, block);
+        self.resolve_mixed(colors, block);
+    }
+
+    /// Pixels on each side of a tile that are painted with it.
+    pub(in crate::raster::paint) fn margin(&self) -> usize {
+        self.samples.weights.margin().cast_unsigned() as usize
+    }
+
+    /// Which pixels of the tile are flat, for those who find them in another way.
+    pub(in crate::raster::paint) fn flat(&mut self) -> &mut FlatPixels {
+        &mut self.flat
+    }
+
+    /// Resolves the pixels that are not flat: of others than those around them no colours are looked at.
+    pub(in crate::raster::paint) fn resolve_mixed(&mut self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
+        let margin = self.margin();
         if self.flat.are_all() {
             return;
         }
@@ -126,7 +141,7 @@ impl WideResolve {
 
     /// Resolves what needs no sum.
     fn put_flat(&self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
-        let margin = self.samples.weights.margin().cast_unsigned() as usize;
+        let margin = self.margin();
         let width = self.flat.width();
         for (y, row) in (0..).zip(block.rect.y.start..block.rect.y.end) {
             let (whole, _) = colors.row(y + margin);

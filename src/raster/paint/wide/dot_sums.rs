@@ -22,7 +22,7 @@
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x8, u32x16, u64x2};
+use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x4, u32x8, u32x16, u64x2};
 
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::frame::block::PixelBlock;
@@ -70,6 +70,15 @@ pub(super) struct DotSums {
     /// first and third row side by side, and of the second and fourth; then the higher ones.
     halves: Vec<[i16; AT_ONCE]>,
     width: usize,
+}
+
+/// A row of what was painted.
+#[derive(Clone, Copy)]
+struct PaintedRow<'c> {
+    colors: &'c SampleColors,
+    y: usize,
+    /// Its split pixels, the first in the lowest bit.
+    split: u128,
 }
 
 /// What makes a pixel of a sum.
@@ -161,8 +170,13 @@ impl DotSums {
                 let around = 2 * self.margin + 1;
                 let rows = block.rect.y;
                 for y in 0..flat.height() + 2 * self.margin {
+                    let row = PaintedRow {
+                        colors,
+                        y,
+                        split: flat.split(y),
+                    };
                     for run in flat.around(y, self.margin).runs() {
-                        self.across::<S, BLOCKS>(simd, (colors, y), run, y % around * self.width);
+                        self.across::<S, BLOCKS>(simd, row, run, y % around * self.width);
                     }
                     let Some(row) = y.checked_sub(2 * self.margin) else {
                         continue;
@@ -176,18 +190,18 @@ impl DotSums {
         );
     }
 
-    /// Sums up the rows of samples around pixels side by side, from row `y` of what was painted, and puts them into the memory of
-    /// rows, where those of the first pixel have this place.
+    /// Sums up the rows of samples around pixels side by side, and puts them into the memory of rows, where those of the first pixel
+    /// have this place.
     #[inline(always)]
     fn across<S: Simd, const BLOCKS: usize>(
         &mut self,
         simd: S,
-        (colors, y): (&SampleColors, usize),
+        row: PaintedRow<'_>,
         pixels: Range<usize>,
         place: usize,
     ) {
         let read = pixels.start..pixels.end + 2 * self.margin;
-        let (shown, split) = colors.row(y);
+        let (shown, split) = row.colors.row(row.y);
         let seen = shown[read.clone()].iter().zip(&split[read.clone()]);
         for (whole, (color, split)) in self.whole[read.clone()].iter_mut().zip(seen) {
             let kept = u64::from(*split).wrapping_sub(1);
@@ -197,14 +211,33 @@ impl DotSums {
         for (pair, whole) in self.pairs[read.clone()].iter_mut().zip(both) {
             *pair = beside(simd, [whole[0], whole[1]]).to_array();
         }
-        self.add_whole::<S, BLOCKS>(simd, pixels.clone());
-        for x in read {
-            if split[x]
-                && let PixelColors::Split(samples) = colors.pixel(y * colors.width() + x)
-            {
+        let of_run = u128::MAX >> (u128::BITS as usize - read.len()) << read.start;
+        let mut split = row.split & of_run;
+        self.add_whole::<S, BLOCKS>(simd, pixels.clone(), split, place);
+        // Pixels before this one are done.
+        let mut first = pixels.start;
+        while split != 0 {
+            let x = split.trailing_zeros() as usize;
+            split &= split - 1;
+            if let PixelColors::Split(samples) = row.colors.pixel(row.y * row.colors.width() + x) {
                 self.add_split::<S, BLOCKS>(simd, x, samples, &pixels);
             }
+            // Those that no later one adds to.
+            let next = split.trailing_zeros() as usize;
+            first = first.max(x.saturating_sub(2 * self.margin));
+            let last = pixels
+                .end
+                .min(x + 1)
+                .min(next.saturating_sub(2 * self.margin))
+                .max(first);
+            self.keep::<S, BLOCKS>(simd, first..last, place);
+            first = last;
         }
+    }
+
+    /// Puts the finished sums of some pixels into the memory of rows.
+    #[inline(always)]
+    fn keep<S: Simd, const BLOCKS: usize>(&mut self, simd: S, pixels: Range<usize>, place: usize) {
         let (first, last) = (pixels.start * BLOCKS, pixels.end * BLOCKS);
         let found = &mut self.halves[place * BLOCKS..][first..last];
         for (halves, sums) in found.iter_mut().zip(&self.sums[first..last]) {
@@ -212,16 +245,26 @@ impl DotSums {
         }
     }
 
-    /// The sums of rows around pixels, of what pixels of one colour add to them: as much to each row.
+    /// The sums of rows around pixels, of what pixels of one colour add to them: as much to each row. Where there are others, by their
+    /// columns in what was painted, these are yet to be added.
     #[inline(always)]
-    fn add_whole<S: Simd, const BLOCKS: usize>(&mut self, simd: S, pixels: Range<usize>) {
-        for start in pixels.step_by(TOGETHER) {
+    fn add_whole<S: Simd, const BLOCKS: usize>(&mut self, simd: S, pixels: Range<usize>, split: u128, place: usize) {
+        let around = u128::MAX >> (u128::BITS as usize - (TOGETHER + 2 * self.margin));
+        for start in pixels.clone().step_by(TOGETHER) {
             let mut sum = i32x16::splat(simd, 0);
             for (beside, weights) in &self.of_pixels {
                 if let Some(numbers) = self.pairs[start + beside..].as_flattened().first_chunk::<AT_ONCE>() {
                     let weights = i16x32::block_splat(i16x8::simd_from(simd, *weights));
                     sum += i16x32::simd_from(simd, *numbers).pairwise_dot_product(weights);
                 }
+            }
+            for (pixel, halves) in (start..).zip(cut_alike(simd, sum)) {
+                if pixel < pixels.end {
+                    self.halves[(place + pixel) * BLOCKS..][..BLOCKS].fill(halves);
+                }
+            }
+            if split >> start & around == 0 {
+                continue;
             }
             let sums = sum.to_array();
             let of_pixels = self.sums[start * BLOCKS..].chunks_exact_mut(BLOCKS);
@@ -397,6 +440,30 @@ fn cut<S: Simd>(simd: S, sums: [i32; 4 * BLOCK]) -> [i16; AT_ONCE] {
     let low = ((first & u32x8::splat(simd, LOW)) | (last << 16)) ^ u32x8::splat(simd, 0x8000_8000);
     let high = (first >> 16) | (last & u32x8::splat(simd, !LOW));
     let halves: i16x32<S> = low.combine(high).bitcast();
+    halves.to_array()
+}
+
+/// The sums of four rows in halves, for each of four pixels all of whose rows have the same sum.
+#[inline(always)]
+fn cut_alike<S: Simd>(simd: S, sums: i32x16<S>) -> [[i16; AT_ONCE]; TOGETHER] {
+    const LOW: u32 = 0xFFFF;
+    let sums: u32x16<S> = sums.bitcast();
+    let low = ((sums & u32x16::splat(simd, LOW)) | (sums << 16)) ^ u32x16::splat(simd, 0x8000_8000);
+    let high = (sums >> 16) | (sums & u32x16::splat(simd, !LOW));
+    let ((a, b), (c, d)) = (low.split(), high.split());
+    let ((a, b), (c, d)) = ((a.split(), b.split()), (c.split(), d.split()));
+    [
+        twice_each(a.0, c.0),
+        twice_each(a.1, c.1),
+        twice_each(b.0, d.0),
+        twice_each(b.1, d.1),
+    ]
+}
+
+/// Both halves of a pixel's sums, twice each.
+#[inline(always)]
+fn twice_each<S: Simd>(low: u32x4<S>, high: u32x4<S>) -> [i16; AT_ONCE] {
+    let halves: i16x32<S> = low.combine(low).combine(high.combine(high)).bitcast();
     halves.to_array()
 }
 

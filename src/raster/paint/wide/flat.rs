@@ -33,6 +33,8 @@ pub(in crate::raster::paint) struct FlatPixels {
     /// colour of the row above.
     across: Vec<u128>,
     down: Vec<u128>,
+    /// Of each painted row which pixels are not split.
+    whole: Vec<u128>,
 }
 
 /// What of a painted row is alike, the first pixel in the lowest bit; nobody asks for bits beyond the last pixel.
@@ -141,6 +143,7 @@ impl FlatPixels {
         self.width = painted - 2 * margin;
         self.across.clear();
         self.down.clear();
+        self.whole.clear();
     }
 
     /// Notes the next painted row, from above.
@@ -150,6 +153,7 @@ impl FlatPixels {
         self.across.push(across);
         // Above, too, they are whole where they start as many that are; elsewhere nobody asks.
         self.down.push(across & row.above);
+        self.whole.push(row.whole);
     }
 
     /// Notes a row that shows what the one above shows.
@@ -158,6 +162,7 @@ impl FlatPixels {
         let across = self.across.last().copied().unwrap_or(0);
         self.across.push(across);
         self.down.push(across);
+        self.whole.push(self.whole.last().copied().unwrap_or(0));
     }
 
     /// Finds the flat pixels once all rows are noted.
@@ -195,6 +200,11 @@ impl FlatPixels {
         self.mixed[rows]
             .iter()
             .fold(PixelBits::default(), |all, row| all.union(*row))
+    }
+
+    /// The pixels of a painted row that are split, the first in the lowest bit, and anything beyond its last pixel.
+    pub(super) fn split(&self, painted: usize) -> u128 {
+        !self.whole[painted]
     }
 
     /// The pixels of a row that are not flat.

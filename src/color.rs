@@ -11,6 +11,7 @@ mod ramp;
 mod resolve;
 mod resolver;
 mod sample_mean;
+mod spaces;
 mod value_spread;
 mod weighted;
 
@@ -26,6 +27,7 @@ pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
+pub use spaces::ColorSpace;
 pub(crate) use value_spread::{ValueLimits, ValueSpread};
 pub use weighted::WeightedSum;
 

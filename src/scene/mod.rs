@@ -7,6 +7,7 @@ mod attributes;
 mod build;
 mod course;
 mod course_values;
+mod css_colors;
 mod dialect;
 mod digest;
 mod document;

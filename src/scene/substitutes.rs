@@ -1,5 +1,5 @@
 //! What newer CSS writes where SVG has a plain value: `light-dark()`, `var()` and custom properties, percentages of opacity in
-//! `rgb()`, functions inside functions.
+//! `rgb()`, colours of other spaces, functions inside functions.
 //!
 //! Drawing programs write them (draw.io, Figma, Mermaid), and the reader of styles stops at the first that it does not know,
 //! with all that follows in the same style. So plain values take their places, filled up with blanks: every place in the
@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::css_colors;
 use super::edits::Edits;
 
 /// Most bytes of one function; a longer one stays as it is.
@@ -17,35 +18,89 @@ const MAX_LENGTH: usize = 400;
 const MAX_FUNCTIONS: usize = 1_000_000;
 /// Functions inside each other, at most.
 const MAX_DEPTH: usize = 8;
-/// The functions that have a plain value.
+/// The functions that have a plain value, besides those of colours.
 const FUNCTIONS: [&str; 4] = ["light-dark", "var", "rgb", "rgba"];
 /// Whose custom properties hold for the whole document.
 const ROOTS: [&str; 3] = [":root", "svg", "*"];
 
-/// The document's custom properties.
-type Properties<'t> = HashMap<&'t str, String>;
+/// What there is something to do for, besides custom properties and functions inside others.
+const SIGNS: [&str; 9] = [
+    "var(",
+    "light-dark(",
+    "%)",
+    "lab(",
+    "lch(",
+    "color(",
+    "(none ",
+    "currentcolor",
+    "rebeccapurple",
+];
+
+/// The custom properties that hold somewhere: those of the document, and of the elements around, with where each ends.
+#[derive(Debug, Default)]
+struct Properties<'t> {
+    everywhere: HashMap<&'t str, String>,
+    around: Vec<(usize, HashMap<&'t str, String>)>,
+}
+
+impl<'t> Properties<'t> {
+    fn get(&self, name: &str) -> Option<&String> {
+        let nearest = self.around.iter().rev().find_map(|(_, own)| own.get(name));
+        nearest.or_else(|| self.everywhere.get(name))
+    }
+
+    /// Forgets those of elements that end before `at`.
+    fn leave(&mut self, at: usize) {
+        while self.around.pop_if(|(end, _)| *end <= at).is_some() {}
+    }
+
+    /// Takes those of an element over.
+    fn enter(&mut self, text: &'t str, scope: &Scope) {
+        self.around.push((scope.end, HashMap::new()));
+        for (name, value) in declared(&text[scope.style.clone()]) {
+            let value = plain(value, self, 0);
+            if let Some((_, own)) = self.around.last_mut() {
+                own.extend(value.map(|value| (name, value)));
+            }
+        }
+    }
+}
+
+/// An element whose style has custom properties.
+#[derive(Debug)]
+struct Scope {
+    start: usize,
+    end: usize,
+    style: Range<usize>,
+}
 
 /// The document with plain values, as long as before.
 pub(super) fn substituted(text: &str) -> Cow<'_, str> {
     let has = |sign: &str| text.contains(sign);
-    if !["var(", "light-dark(", "%)"].into_iter().any(has) && !has_custom_properties(text) && !is_nested(text) {
+    if !SIGNS.into_iter().any(has) && !has_custom_properties(text) && !is_nested(text) {
         return Cow::Borrowed(text);
     }
     let markup = Markup::of(text);
-    let properties = markup.properties(text);
+    let mut properties = markup.properties(text);
     let mut edits = Edits::default();
     let mut left = MAX_FUNCTIONS;
-    for part in markup.tags.iter().chain(&markup.sheets) {
-        for (span, value) in functions(text, part.clone(), &mut left) {
-            let width = span.len();
-            let stands_for = plain(value, &properties, 0).filter(|plain| plain.len() <= width && plain != value);
-            if let Some(plain) = stands_for {
-                let blanks = width - plain.len();
-                edits.replace(span, plain + &" ".repeat(blanks));
-            }
+    for sheet in &markup.sheets {
+        substitute(text, sheet.clone(), (&properties, &mut left), &mut edits);
+    }
+    let mut scopes = markup.scopes.iter().peekable();
+    for tag in &markup.tags {
+        properties.leave(tag.start);
+        while let Some(scope) = scopes.next_if(|scope| scope.start <= tag.start) {
+            properties.enter(text, scope);
         }
+        substitute(text, tag.clone(), (&properties, &mut left), &mut edits);
     }
     let mut text = edits.apply_to(Cow::Borrowed(text));
+    let mut edits = Edits::default();
+    for part in markup.tags.iter().chain(&markup.sheets) {
+        words(&text, part.clone(), &mut edits);
+    }
+    text = edits.apply_to(text);
     let mut edits = Edits::default();
     for style in &markup.styles {
         unnest(&text, style.clone(), 1, &mut edits);
@@ -55,6 +110,25 @@ pub(super) fn substituted(text: &str) -> Cow<'_, str> {
     }
     text = edits.apply_to(text);
     text
+}
+
+/// Puts plain values in the places of functions in a part of the document.
+fn substitute(text: &str, part: Range<usize>, (properties, left): (&Properties<'_>, &mut usize), edits: &mut Edits) {
+    for (span, value) in functions(text, part, left) {
+        let width = span.len();
+        let stands_for = plain(value, properties, 0).filter(|plain| plain != value);
+        let stands_for = stands_for.and_then(|plain| {
+            if plain.len() <= width {
+                Some(plain)
+            } else {
+                css_colors::shortest(&plain).filter(|plain| plain.len() <= width)
+            }
+        });
+        if let Some(plain) = stands_for {
+            let blanks = width - plain.len();
+            edits.replace(span, plain + &" ".repeat(blanks));
+        }
+    }
 }
 
 /// Whether there may be a name that begins as those of custom properties do.
@@ -81,12 +155,16 @@ struct Markup {
     styles: Vec<Range<usize>>,
     /// Contents of elements `style`.
     sheets: Vec<Range<usize>>,
+    /// Elements whose style may have custom properties.
+    scopes: Vec<Scope>,
 }
 
 impl Markup {
     fn of(text: &str) -> Self {
         let mut found = Self::default();
         let mut at = 0;
+        // Which scope each open element is, if it is one.
+        let mut open: Vec<Option<usize>> = Vec::new();
         while let Some(start) = text[at..].find('<').map(|start| at + start) {
             let rest = &text[start..];
             let (skipped, end) = match rest.as_bytes() {
@@ -99,8 +177,21 @@ impl Markup {
                 break;
             };
             at = end.max(start + 1);
+            if rest.starts_with("</")
+                && let Some(scope) = open.pop().flatten()
+            {
+                found.scopes[scope].end = start;
+            }
             if !skipped {
-                found.tag(text, start..end);
+                let scope = found.tag(text, start..end);
+                if text[..end].ends_with('/') {
+                    // Nothing is inside.
+                    if let Some(scope) = scope {
+                        found.scopes[scope].end = end;
+                    }
+                } else {
+                    open.push(scope);
+                }
                 if is_sheet(&text[start..end]) {
                     let begin = end + 1;
                     at = text[begin..].find("</").map_or(text.len(), |length| begin + length);
@@ -111,7 +202,8 @@ impl Markup {
         found
     }
 
-    fn tag(&mut self, text: &str, range: Range<usize>) {
+    /// Notes a tag; which scope it begins, if it does.
+    fn tag(&mut self, text: &str, range: Range<usize>) -> Option<usize> {
         let tag = &text[range.clone()];
         self.tags.push(range.clone());
         let style = tag.match_indices("style").find_map(|(at, name)| {
@@ -121,12 +213,19 @@ impl Markup {
             let begin = range.end - value.len() + 1;
             Some(begin..begin + value[1..].find(quote)?)
         });
-        self.styles.extend(style);
+        self.styles.extend(style.clone());
+        let style = style.filter(|style| text[style.clone()].contains("--"))?;
+        self.scopes.push(Scope {
+            start: range.start,
+            end: text.len(),
+            style,
+        });
+        Some(self.scopes.len() - 1)
     }
 
-    /// The custom properties of the root element, and of style sheets for it.
+    /// The custom properties that style sheets give the root element.
     fn properties<'t>(&self, text: &'t str) -> Properties<'t> {
-        let mut properties = HashMap::new();
+        let mut properties = Properties::default();
         for sheet in &self.sheets {
             let mut rest = &text[sheet.clone()];
             while let Some((selector, block)) = rest.split_once('{') {
@@ -135,14 +234,21 @@ impl Markup {
                     .fold(selector, |rest, mark| rest.rsplit(mark).next().unwrap_or(""));
                 let (body, after) = block.split_at(block_end(block));
                 if selector.split(',').any(|selector| ROOTS.contains(&selector.trim())) {
-                    define(body, &mut properties);
+                    for (name, value) in declared(body) {
+                        let value = plain(value, &properties, 0);
+                        properties.everywhere.extend(value.map(|value| (name, value)));
+                    }
                 }
                 rest = after.strip_prefix('}').unwrap_or("");
             }
         }
+        // Its own style counts for style sheets, too.
         let root_end = self.tags.first().map_or(0, |tag| tag.end);
         if let Some(style) = self.styles.first().filter(|style| style.end <= root_end) {
-            define(&text[style.clone()], &mut properties);
+            for (name, value) in declared(&text[style.clone()]) {
+                let value = plain(value, &properties, 0);
+                properties.everywhere.extend(value.map(|value| (name, value)));
+            }
         }
         properties
     }
@@ -181,19 +287,14 @@ pub(super) fn block_end(block: &str) -> usize {
     end.unwrap_or(block.len())
 }
 
-/// Takes over the custom properties of a style.
-fn define<'t>(style: &'t str, properties: &mut Properties<'t>) {
-    for declaration in style.split(';') {
-        let Some((name, value)) = declaration.split_once(':') else {
-            continue;
-        };
+/// The custom properties of a style.
+fn declared(style: &str) -> impl Iterator<Item = (&str, &str)> {
+    style.split(';').filter_map(|declaration| {
+        let (name, value) = declaration.split_once(':')?;
         let name = name.rsplit("*/").next().unwrap_or("").trim();
-        if let Some(value) = Some(value).filter(|value| name.starts_with("--") && value.len() <= MAX_LENGTH)
-            && let Some(value) = plain(value.trim(), properties, 0)
-        {
-            properties.insert(name, value);
-        }
-    }
+        let is_one = name.starts_with("--") && value.len() <= MAX_LENGTH;
+        is_one.then_some((name, value.trim()))
+    })
 }
 
 /// The outermost functions in a part of a text that may have a plain value; `left` is how many more there may be.
@@ -203,7 +304,8 @@ fn functions<'t>(text: &'t str, part: Range<usize>, left: &mut usize) -> Vec<(Ra
     while let Some(open) = text[at..part.end].find('(').map(|open| at + open) {
         at = open + 1;
         let before = &text[part.start..open];
-        let is_ours = FUNCTIONS.into_iter().find(|name| is_call(before, name));
+        let names = FUNCTIONS.into_iter().chain(css_colors::FUNCTIONS);
+        let is_ours = names.into_iter().find(|name| is_call(before, name));
         let Some(name) = is_ours.filter(|_| *left > 0) else {
             continue;
         };
@@ -255,12 +357,18 @@ fn plain(value: &str, properties: &Properties<'_>, depth: usize) -> Option<Strin
             },
             _ => {
                 let arguments = plain(arguments, properties, depth + 1)?;
-                translucent(&arguments).unwrap_or_else(|| format!("{name}({arguments})"))
+                let color = match name {
+                    "rgb" | "rgba" => translucent(&arguments),
+                    _ => css_colors::plain(name, &arguments),
+                };
+                color.unwrap_or_else(|| format!("{name}({arguments})"))
             }
         };
         edits.replace(span, stands_for.trim().to_owned());
     }
-    Some(edits.apply_to(Cow::Borrowed(value)).into_owned()).filter(|value| !value.trim().is_empty())
+    let plain = edits.apply_to(Cow::Borrowed(value)).into_owned();
+    // Properties that name others several times would grow without end.
+    Some(plain).filter(|plain| !plain.trim().is_empty() && plain.len() <= MAX_LENGTH)
 }
 
 /// The first argument, and all that follow.
@@ -298,6 +406,36 @@ fn translucent(arguments: &str) -> Option<String> {
         "rgba({red},{green},{blue},{})",
         opacity.trim_start_matches('0')
     ))
+}
+
+/// Puts words for colours in the places of those that SVG's readers do not know.
+fn words(text: &str, part: Range<usize>, edits: &mut Edits) {
+    let here = &text[part.clone()];
+    for (word, plain) in css_colors::WORDS {
+        for (at, _) in here.match_indices(word) {
+            let ends =
+                !here[at + word.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
+            if ends && is_value(here[..at].trim_end()) {
+                let blanks = " ".repeat(word.len() - plain.len());
+                edits.replace(
+                    part.start + at..part.start + at + word.len(),
+                    format!("{plain}{blanks}"),
+                );
+            }
+        }
+    }
+}
+
+/// Whether a colour may follow: behind the name of such a property in a style or of such an attribute.
+fn is_value(before: &str) -> bool {
+    let name = before.strip_suffix(':').or_else(|| {
+        let attribute = before.strip_suffix(['"', '\''])?;
+        attribute.trim_end().strip_suffix('=')
+    });
+    let name = name.unwrap_or("").trim_end();
+    ["fill", "stroke", "color"]
+        .into_iter()
+        .any(|property| name.ends_with(property))
 }
 
 /// Takes the parentheses of functions inside functions away, and the names of custom properties. `braces` is how many are open
@@ -373,6 +511,14 @@ mod tests {
                 "<svg><rect fill='rgb(255 0 0 / 50%)' stroke='rgba(1, 2, 3, 100%)'/></svg>",
                 "<svg><rect fill='rgba(255,0,0,.500)' stroke='rgba(1,2,3,1.000) '/></svg>",
             ),
+            (
+                "<svg><rect fill='oklch(51.975% 0.17686 142.495)' style='stroke:color(srgb 1 var(--x, 0.5) 0 / 50%);fill:red'/></svg>",
+                "<svg><rect fill='#008000 ' style='stroke:#ff800080 ;fill:red'/></svg>",
+            ),
+            (
+                "<svg id='rebeccapurple'><style>a{fill:currentcolor}</style><rect fill='rebeccapurple' stroke='currentcolor'/></svg>",
+                "<svg id='rebeccapurple'><style>a{fill:currentColor}</style><rect fill='#663399 ' stroke='currentColor'/></svg>",
+            ),
         ] {
             assert_becomes(text, expected);
         }
@@ -389,6 +535,27 @@ mod tests {
     }
 
     #[test]
+    fn custom_properties_of_an_element_hold_inside_it() {
+        assert_becomes(
+            "<svg><g style='--c: red'><rect fill='var(--c, blue)'/><g style='--c: lime; --d: var(--c)'><br/><rect \
+             fill='var(--c)' stroke='var(--d)'/></g><rect fill='var(--c)'/></g><rect fill='var(--c, blue)'/>\
+             <rect style='--c: rgb(255, 0, 0); fill: var(--c)'/></svg>",
+            "<svg><g style='x-c: red'><rect fill='red '/><g style='x-c: lime; x-d: lime '><br/><rect \
+             fill='lime ' stroke='lime '/></g><rect fill='red '/></g><rect fill='blue '/>\
+             <rect style='x-c: rgb(255, 0, 0); fill: #f00 '/></svg>",
+        );
+    }
+
+    #[test]
+    fn properties_that_multiply_have_no_value() {
+        let twenty = |i: i32| format!("--a{i}: {};", format!("var(--a{}) ", i - 1).repeat(20));
+        let chain: String = (1..30).map(twenty).collect();
+        let text = format!("<svg style='--a0: lime; {chain}'><rect fill='var(--a29, red)' stroke='var(--a1)'/></svg>");
+        let plain = substituted(&text);
+        assert!(plain.contains("fill='red ") && plain.len() == text.len(), "the fallback");
+    }
+
+    #[test]
     fn functions_inside_others_end_no_style() {
         assert_becomes(
             "<svg><g style='filter: drop-shadow(0 0 2px rgb(0,0,0)); fill: url(\"a(b)\")'/></svg>",
@@ -401,6 +568,7 @@ mod tests {
         for text in [
             "<svg><text>var(--a, b) -- (())</text><!-- <g fill='var(--a, b)'/> --></svg>",
             "<svg><rect fill='var(--a)' id='myvar(1,2)'/></svg>",
+            "<svg><rect fill='color(xyz 1 0 0)' stroke='lab(from red l a b)' class='currentcolor'/></svg>",
             "<svg><rect fill='var(--a, var(--b))' transform='rotate(3)'/></svg>",
             "<svg><style>g:not(:nth-child(2)) { fill: red }</style></svg>",
             "<svg style='fill:var(",

@@ -8,6 +8,7 @@ mod build;
 mod course;
 mod course_values;
 mod css_colors;
+mod cut_off;
 mod dialect;
 mod digest;
 mod document;

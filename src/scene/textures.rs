@@ -8,6 +8,7 @@ use std::sync::Arc;
 use data_url::DataUrl;
 use rayon::prelude::*;
 
+use super::cut_off::is_cut_off;
 use super::report::{quote, shorten};
 use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
 use crate::memory::{self, OutOfMemory};
@@ -183,9 +184,21 @@ impl<'doc> TextureTable<'doc> {
             let named: Vec<_> = batch.into_iter().zip(places.by_ref()).collect();
             let decoded: Vec<_> = named
                 .into_par_iter()
-                .map(|(file, place)| (file.and_then(|file| decode(&place.0, &file.bytes, alpha)), place))
+                .map(|(file, place)| {
+                    let is_cut_off = file.as_ref().is_ok_and(|file| is_cut_off(&file.bytes));
+                    let texture = file.and_then(|file| decode(&place.0, &file.bytes, alpha));
+                    (texture, is_cut_off, place)
+                })
                 .collect();
-            for (result, (name, location, asks)) in decoded {
+            for (result, is_cut_off, (name, location, asks)) in decoded {
+                // What is read in two ways is one file.
+                if is_cut_off && asks.is_none() && result.is_ok() {
+                    let message = format!(
+                        "texture {name}: the file ends before its picture does, which is drawn as far as it goes; copy \
+                         or save it again"
+                    );
+                    report.warn(location, message);
+                }
                 let (texture, dropped) = result.unwrap_or_else(|trouble| {
                     report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
                     (Texture::missing(&name), false)
@@ -295,7 +308,11 @@ fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<(Texture, bool), Str
 
 #[expect(clippy::needless_pass_by_value, reason = "shaped for map_err")]
 fn explain(error: DecodeError) -> String {
-    shorten(&error.to_string(), MAX_MESSAGE)
+    let message = error.to_string();
+    if message.contains("unexpected end of file") {
+        return "the file ends before its picture does; copy or save it again".to_owned();
+    }
+    shorten(&message, MAX_MESSAGE)
 }
 
 pub(super) fn is_data(address: &str) -> bool {

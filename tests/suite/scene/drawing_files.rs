@@ -175,3 +175,34 @@ fn pictures_of_patterns_have_their_textures() {
     assert_eq!((scene.textures.len(), scene.patterns.len()), (1, 1));
     assert_eq!(scene.patterns[0].tile.textures.len(), 1, "the tile has it too");
 }
+
+#[test]
+fn pictures_that_end_too_soon_are_told() {
+    let mut jpeg = Vec::new();
+    let encoder = image::codecs::jpeg::JpegEncoder::new(&mut jpeg);
+    let pixels: Vec<u8> = (0..64 * 64 * 3_u32)
+        .map(|i| u8::try_from(i * i % 251).expect("below 251"))
+        .collect();
+    image::ImageEncoder::write_image(encoder, &pixels, 64, 64, image::ExtendedColorType::Rgb8).unwrap();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let told = |length: usize| {
+        std::fs::write(folder.path().join("a.jpg"), &jpeg[..length]).expect("a writable folder");
+        let document = svg(
+            "width='99' height='99'",
+            "\n<image href='a.jpg'/><image href='a.jpg' style='image-rendering:pixelated'/>",
+        );
+        let options = ReadOptions {
+            dialect: DialectChoice::Svg,
+        };
+        let resources = FolderResources::new(folder.path());
+        let scene = scene::read(document.as_bytes(), "test.svg", options, &resources).expect("a scene");
+        lines(&scene)
+    };
+    assert_eq!(told(jpeg.len()), [""; 0], "a whole one");
+    let cut = told(jpeg.len() / 2);
+    assert_eq!(cut.len(), 1, "{cut:?}");
+    assert!(
+        cut[0].starts_with("2:1: texture a.jpg: the file ends before its picture does"),
+        "{cut:?}"
+    );
+}

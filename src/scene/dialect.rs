@@ -195,14 +195,16 @@ impl Traits {
         let is_known = course::ELEMENTS.contains(&name);
         self.own |= matches!(name, "colortri" | "textri" | "texture");
         self.points |= is_point(node);
-        self.foreign |= !is_known || is_styled_as_svg(node) || is_only_svg(node);
+        // The course's reader stretches pictures, SVG keeps their proportions.
+        let is_picture = name == "image";
+        self.foreign |= !is_known || is_picture || is_styled_as_svg(node) || is_only_svg(node);
         self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
         self.drawn |= is_known && name != "g";
-        self.differs |= !is_known || is_styled_as_svg(node) || course::is_read_otherwise(node);
+        self.differs |= !is_known || is_picture || is_styled_as_svg(node) || course::is_read_otherwise(node);
     }
 
     /// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
-    /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, no attribute
+    /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, no picture, no attribute
     /// or unit of which the course's reader knows nothing, and a size in plain numbers.
     fn dialect(self) -> Dialect {
         if self.own || (self.points && self.measured && !self.rich) || (self.sized && !self.foreign) {

@@ -367,7 +367,13 @@ fn auto_finds_the_dialect() {
             "<image width='1' height='1' href='data:image/svg+xml,'/>",
             Dialect::Svg,
         ),
-        (size, "<image width='1' height='1' href='a.png'/>", Dialect::Course),
+        // The course's reader would stretch it.
+        (size, "<image width='1' height='1' href='a.png'/>", Dialect::Svg),
+        (
+            size,
+            "<image width='1' height='1' href='a.png'/><colortri/>",
+            Dialect::Course,
+        ),
         (size, "<colortri opacity='.5'/>", Dialect::Course),
         (size, "<polygon fill='red'/><rect/>", Dialect::Course),
         (size, "<g fill='#fff'><polygon/></g>", Dialect::Svg),

@@ -118,6 +118,9 @@ pub(super) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Fault> {
     }
 }
 
+/// How pictures begin, and what they are.
+const PICTURES: [(&[u8], &str); 2] = [(b"\x89PNG", "a PNG"), (b"\xff\xd8\xff", "a JPEG")];
+
 /// The document as text, whatever its encoding; a byte order mark is gone.
 pub(super) fn decode(document: &[u8]) -> Result<Cow<'_, str>, Fault> {
     let text = match document {
@@ -156,6 +159,9 @@ fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
             windows.copied().unwrap_or_else(|| char::from(byte))
         };
         return Ok(Cow::Owned(bytes.iter().map(letter).collect()));
+    }
+    if let Some((_, what)) = PICTURES.iter().find(|(start, _)| bytes.starts_with(start)) {
+        return Err(Problem::Picture(what).nowhere());
     }
     let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
     Err(Problem::Encoding.at(LineIndex::new(&valid).locate(valid.len())))
@@ -259,7 +265,17 @@ impl<'doc> Source<'doc> {
                 column: place.col,
             },
         };
-        let message = error.to_string().replace(&format!(" at {place}"), "");
+        let before = self.original.get(..lines.offset(location).unwrap_or(0)).unwrap_or("");
+        let is_first = before
+            .trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}')
+            .is_empty();
+        let message = match error {
+            Error::UnexpectedDeclaration(_) if is_first => {
+                "blanks stand before the XML declaration, where nothing may stand".to_owned()
+            }
+            Error::UnknownToken(_) if is_first => "text stands before the first tag".to_owned(),
+            error => error.to_string().replace(&format!(" at {place}"), ""),
+        };
         Problem::Xml(shorten(&message, MAX_MESSAGE)).at(location)
     }
 }
@@ -402,6 +418,8 @@ mod tests {
     fn decode_names_the_first_bad_byte() {
         let fault = decode(b"<svg>\n  \xff</svg>").expect_err("no UTF-8");
         assert_eq!(fault.location, Some(place(2, 3)), "second line");
+        let picture = decode(b"\x89PNG\r\n\x1a\n").expect_err("no text").problem.to_string();
+        assert!(picture.starts_with("this is a PNG, not an SVG file"), "{picture}");
         assert!(decode(b" \n").is_err(), "blank");
         assert!(decode(b"").is_err(), "empty");
         assert!(decode(b"<\0s").is_err(), "half a UTF-16 unit");
@@ -434,6 +452,29 @@ mod tests {
             6,
             "places are the original's"
         );
+    }
+
+    #[test]
+    fn what_stands_before_the_document_is_named() {
+        let said = |text: &str| {
+            let source = Source::new(text).expect("small");
+            let fault = source.parse().expect_err("no XML");
+            (fault.location, fault.problem.to_string())
+        };
+        let declared = "<?xml version='1.0'?><svg/>";
+        for before in ["\n", " \t", "\u{feff}\n"] {
+            let (_, line) = said(&format!("{before}{declared}"));
+            assert!(
+                line.starts_with("blanks stand before the XML declaration"),
+                "{before:?}: {line}"
+            );
+        }
+        assert_eq!(said(&format!("\n {declared}")).0, Some(place(2, 2)), "where it is");
+        assert!(
+            said("HTTP/1.1 200 OK\n<svg/>").1.starts_with("text stands before"),
+            "no markup"
+        );
+        assert!(said("<svg>&</svg>").1.starts_with("malformed"), "any other fault");
     }
 
     #[test]

@@ -39,6 +39,9 @@ pub enum Problem {
     /// Neither UTF-8 nor UTF-16.
     #[error("this is not text in UTF-8 or UTF-16; is it an SVG file? Save it as UTF-8")]
     Encoding,
+    /// Another kind of file.
+    #[error("this is {0}, not an SVG file; give one, which may show it by <image href=\"...\">")]
+    Picture(&'static str),
     /// Not well-formed.
     #[error("{0}; repair the XML here")]
     Xml(String),

@@ -44,7 +44,7 @@ fn is_reference(by: By) -> bool {
 
 /// The edges that are left when everything is taken away that leads nowhere, or that nothing leads to: those of circles, and
 /// between them.
-fn on_circles(edges: &[Edge]) -> Vec<Edge> {
+pub(super) fn on_circles(edges: &[Edge]) -> Vec<Edge> {
     let flipped = |edges: Vec<Edge>| {
         edges
             .into_iter()

@@ -115,11 +115,15 @@ fn explain(error: &usvg::Error, builder: &Builder<'_>, root: Node<'_, '_>) -> Fa
         }
         .at(builder.locate(root)),
         usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => {
-            Problem::TooMany {
+            let too_many = Problem::TooMany {
                 what: "elements, with those that are used again",
                 limit: MAX_ELEMENTS,
+            };
+            // usvg follows a circle until it has had enough.
+            match references::circle_of_uses(root) {
+                Some(at) => Problem::Circle.at(builder.locate(at)),
+                None => too_many.nowhere(),
             }
-            .nowhere()
         }
         error => Problem::Xml(super::report::quote(&error.to_string())).nowhere(),
     }

@@ -10,8 +10,8 @@ use roxmltree::{Node, NodeId};
 use super::circles;
 use super::listener::Listener;
 use super::styles::{By, Styles};
-use crate::scene::Problem;
 use crate::scene::error::Fault;
+use crate::scene::{Problem, attributes};
 
 /// Most elements that usvg may look at, those that are referred to counted again with everything inside.
 const MAX_WORK: u64 = 4_000_000;
@@ -68,12 +68,7 @@ struct Open<'doc> {
 /// Refuses documents whose references are too many, too deep or circular.
 pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L) -> Result<(), Fault> {
     let styles = Styles::below(root, listener)?;
-    let mut ids = HashMap::new();
-    for node in root.descendants().filter(Node::is_element) {
-        if let Some(id) = node.attribute("id") {
-            ids.entry(id).or_insert(node);
-        }
-    }
+    let ids = by_id(root);
     let mut search = Search {
         styles: &styles,
         ids: &ids,
@@ -94,6 +89,41 @@ pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L)
         }
         None => Ok(()),
     }
+}
+
+/// The first `use` that leads back to itself or to something around it: usvg gives up where several do so together.
+pub(super) fn circle_of_uses<'doc>(root: Node<'doc, 'doc>) -> Option<Node<'doc, 'doc>> {
+    let ids = by_id(root);
+    let target = |node| ids.get(attributes::href(node)?.trim().strip_prefix('#')?).copied();
+    let number = |node: Node<'_, '_>| node.id().get_usize();
+    let mut edges: Vec<circles::Edge> = Vec::new();
+    for node in root.descendants().filter(Node::is_element) {
+        let parent = node.parent_element();
+        edges.extend(parent.map(|parent| (number(parent), number(node), By::Inside)));
+        let shown = target(node).filter(|_| is_use(node));
+        edges.extend(shown.map(|shown| (number(node), number(shown), By::Href)));
+    }
+    let circle = circles::on_circles(&edges).into_iter();
+    let first = circle
+        .filter(|(_, _, by)| *by == By::Href)
+        .map(|(from, _, _)| from)
+        .min();
+    root.descendants().find(|node| Some(number(*node)) == first)
+}
+
+fn is_use(node: Node<'_, '_>) -> bool {
+    node.tag_name().name() == "use"
+}
+
+/// The elements by their ids; of two with one id the first.
+fn by_id<'doc>(root: Node<'doc, 'doc>) -> HashMap<&'doc str, Node<'doc, 'doc>> {
+    let mut ids = HashMap::new();
+    for node in root.descendants().filter(Node::is_element) {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node);
+        }
+    }
+    ids
 }
 
 struct Search<'s, 'doc> {

@@ -185,6 +185,10 @@ fn references_in_circles_end() {
             "a picture by a filter",
             "<filter id='f'><feImage href='#g'/></filter><g id='g'><g filter='url(#f)'><rect width='9' height='9'/></g></g>",
         ),
+        (
+            "two groups that show each other",
+            "<g id='a'><use href='#b'/><rect width='9' height='9'/></g><g id='b'><use href='#a'/></g>",
+        ),
     ] {
         assert!(outcome(what, body).contains("lead in a circle"), "{what}");
     }

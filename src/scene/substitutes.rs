@@ -552,7 +552,10 @@ mod tests {
         let chain: String = (1..30).map(twenty).collect();
         let text = format!("<svg style='--a0: lime; {chain}'><rect fill='var(--a29, red)' stroke='var(--a1)'/></svg>");
         let plain = substituted(&text);
-        assert!(plain.contains("fill='red ") && plain.len() == text.len(), "the fallback");
+        assert!(
+            plain.contains("fill='red ") && plain.len() == text.len(),
+            "the fallback"
+        );
     }
 
     #[test]

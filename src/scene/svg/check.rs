@@ -1,6 +1,7 @@
 //! What usvg would pass over in silence: values that it does not understand, numbers that are not finite, properties without
 //! effect.
 
+use glam::DAffine2;
 use roxmltree::Node;
 
 use super::listener::Listener;
@@ -19,12 +20,17 @@ const LENGTHS: [&str; 14] = [
     "x", "y", "width", "height", "rx", "ry", "cx", "cy", "r", "x1", "y1", "x2", "y2", "points",
 ];
 
+/// Lengths of shapes that SVG 2 reads in styles, too, and usvg as attributes only.
+const GEOMETRY: [&str; 9] = ["x", "y", "width", "height", "rx", "ry", "cx", "cy", "r"];
+/// The shapes that have such.
+const SHAPES: [&str; 4] = ["rect", "circle", "ellipse", "image"];
+
 /// What is seen at an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) displayed: bool,
-    /// How much its transform enlarges, at most; with how far it moves.
-    pub(super) stretch: f64,
+    /// How it lies in what is around it.
+    pub(super) to_parent: DAffine2,
     /// The largest of its coordinates.
     pub(super) reach: f64,
 }
@@ -33,7 +39,7 @@ pub(super) struct Look {
 pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: bool) -> Result<Look, Fault> {
     let mut look = Look {
         displayed: true,
-        stretch: 1.0,
+        to_parent: DAffine2::IDENTITY,
         reach: 1.0,
     };
     let mut complaints = Vec::new();
@@ -56,6 +62,13 @@ pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: boo
             finite(listener, node, "style", declaration.value)?;
         }
         complaints.push((declaration.name, declaration.value));
+        if heard && is_geometry_in_vain(node, &declaration) {
+            let message = format!(
+                "{} has no effect in a style; write it as an attribute",
+                declaration.name
+            );
+            listener.warn(node, message);
+        }
     }
     if heard && look.displayed {
         for (name, value) in complaints {
@@ -65,18 +78,21 @@ pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: boo
     Ok(look)
 }
 
+/// Whether a style gives a shape a length that it does not have without it.
+fn is_geometry_in_vain(node: Node<'_, '_>, declaration: &simplecss::Declaration<'_>) -> bool {
+    let plain = |value: &str| value.trim().trim_end_matches("px").to_owned();
+    SHAPES.contains(&node.tag_name().name())
+        && GEOMETRY.contains(&declaration.name)
+        && declaration.value != "auto"
+        && node.attribute(declaration.name).map(plain) != Some(plain(declaration.value))
+}
+
 fn declared(look: &mut Look, name: &str, value: &str) {
     match name {
         "display" => look.displayed = value != "none",
         "transform" => {
-            if let Some(transform) = values::transform(value) {
-                let matrix = transform.matrix2;
-                let size = matrix.x_axis.abs() + matrix.y_axis.abs();
-                look.stretch = size
-                    .max_element()
-                    .max(transform.translation.abs().max_element())
-                    .max(1.0);
-            }
+            // That of a style counts in place of the attribute's.
+            look.to_parent = values::transform(value).unwrap_or(look.to_parent);
         }
         _ => {}
     }

@@ -25,6 +25,7 @@ mod reach;
 mod references;
 mod server;
 mod shapes;
+mod sheets;
 mod styles;
 mod values;
 

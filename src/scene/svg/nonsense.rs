@@ -5,28 +5,35 @@
 use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
-use super::values;
+use super::{sheets, values};
+use crate::scene::edits::Edits;
 use crate::scene::report::quote;
 use crate::scene::substitutes::block_end;
 
-/// Put before a name to make it one of nothing.
+/// Put before the name of a declaration to make it one of nothing.
 pub(super) const UNREAD: &str = "unread-";
 
 /// Properties that are colours.
 const PAINTS: [&str; 4] = ["fill", "stroke", "color", "stop-color"];
 
-/// Where in `text` the names stand that `node` gives such colours to, as attributes or in its style.
-pub(super) fn names(text: &str, node: Node<'_, '_>) -> Vec<usize> {
-    let attributes = node.attributes().filter(|attribute| attribute.namespace().is_none());
-    attributes.flat_map(|attribute| of_attribute(text, attribute)).collect()
+/// Takes such colours that `node` has, as attributes or in its style, out of `text`.
+pub(super) fn hide(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
+    for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+        if is_nonsense(attribute.name(), attribute.value().trim()) {
+            // With another name it might be there twice.
+            edits.replace(attribute.range(), String::new());
+        }
+        for at in in_style(text, attribute) {
+            edits.insert(at, UNREAD.to_owned());
+        }
+    }
 }
 
-fn of_attribute(text: &str, attribute: Attribute<'_, '_>) -> Vec<usize> {
+/// Where in `text` the names of declarations in vain stand, if the attribute is a style.
+fn in_style(text: &str, attribute: Attribute<'_, '_>) -> Vec<usize> {
     let (name, value) = (attribute.name(), attribute.value());
     let there = attribute.range_value();
-    if is_nonsense(name, value.trim()) {
-        vec![attribute.range_qname().start]
-    } else if name == "style" && text.get(there.clone()) == Some(value) {
+    if name == "style" && text.get(there.clone()) == Some(value) {
         let declarations = DeclarationTokenizer::from(value).filter(is_in_vain);
         declarations
             .map(|declaration| there.start + offset(value, declaration.name))
@@ -49,7 +56,9 @@ pub(super) fn names_in_sheet(text: &str, sheet: Node<'_, '_>) -> Vec<(usize, Str
         else {
             continue;
         };
-        let rules = StyleSheet::parse(css).rules.into_iter();
+        let mut sheet = StyleSheet::new();
+        sheets::parse(&mut sheet, css);
+        let rules = sheet.rules.into_iter();
         let declarations = rules.flat_map(|rule| rule.declarations).filter(is_in_vain);
         found.extend(declarations.map(|declaration| {
             let message = without_effect(declaration.name, declaration.value);
@@ -98,6 +107,36 @@ pub(super) fn selectors_in_vain(css: &str) -> Vec<String> {
             found.extend(unread_selector(selectors));
         }
     }
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// Rules with an `@` that hold others, or fetch them.
+const AT_RULES: [&str; 6] = ["@import", "@media", "@supports", "@layer", "@scope", "@container"];
+/// What conditions ask for that a picture on a screen is not.
+const ELSEWHERE: [&str; 9] = [
+    "print", "speech", "dark", "reduce", "contrast", "forced", "hover", "pointer", "not ",
+];
+
+/// What is to be said of rules that hold others, all of which are passed over.
+pub(super) fn at_rules_in_vain(css: &str) -> Vec<String> {
+    let css = without_comments(css);
+    let heads = AT_RULES.into_iter().flat_map(|name| css.match_indices(name));
+    let mut found: Vec<String> = heads
+        .filter_map(|(at, name)| {
+            let head = css[at..].split(['{', ';']).next().unwrap_or("").trim();
+            let is_whole = !head[name.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '-');
+            let is_meant = name != "@media" || !ELSEWHERE.into_iter().any(|word| head.contains(word));
+            (is_whole && is_meant).then(|| {
+                let head = quote(head);
+                match name {
+                    "@import" => format!("\"{head}\" has no effect; other style sheets are not fetched"),
+                    _ => format!("the rules inside \"{head}\" have no effect; take them out of it"),
+                }
+            })
+        })
+        .collect();
     found.sort();
     found.dedup();
     found
@@ -170,6 +209,19 @@ mod tests {
                 .any(|line| line.contains("\"a:not(.b)\" is not understood (:not)")),
             "{told:?}"
         );
+    }
+
+    #[test]
+    fn rules_inside_others_are_told_where_they_would_hold() {
+        let css = "@import url(a.css); /* @layer x {} */ @media screen { a { fill: red } } @media print { a { fill: red } }
+            @media (prefers-color-scheme: dark) {} @font-face { src: url(x) } @keyframes x { from { y: 1 } } a { fill: red }";
+        let told = at_rules_in_vain(css);
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(
+            told[0].contains("\"@import url(a.css)\"") && told[1].contains("\"@media screen\""),
+            "{told:?}"
+        );
+        assert!(at_rules_in_vain("@important @media").len() == 1, "only whole words");
     }
 
     #[test]

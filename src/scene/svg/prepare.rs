@@ -1,13 +1,14 @@
 //! A document made ready for usvg: every element with an id, images by number, the course's triangles as paths; and a report of
 //! what is not drawn.
 
+use glam::{DAffine2, DVec2};
 use roxmltree::{Attribute, Node};
 
 use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
 use super::values::WHITENS;
-use super::{nonsense, styles};
+use super::{nonsense, sheets, styles};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
@@ -87,7 +88,7 @@ pub(super) fn prepare<'doc, L: Listener>(
     text: &str,
     listener: &mut L,
 ) -> Result<Prepared<'doc>, Fault> {
-    styles::bounded(root, listener)?;
+    styles::bounded(root, text, listener)?;
     let mut preparation = Preparation {
         text,
         edits: Edits::default(),
@@ -117,8 +118,8 @@ pub(super) fn prepare<'doc, L: Listener>(
 struct Open<'doc> {
     node: Node<'doc, 'doc>,
     next: Option<Node<'doc, 'doc>>,
-    /// How much the transforms so far enlarge, at most.
-    stretch: f64,
+    /// All transforms so far.
+    to_root: DAffine2,
     /// Whether what is inside may be seen, so that its absence is worth a word.
     heard: bool,
 }
@@ -127,7 +128,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     /// Walks the tree without recursion, so that no nesting is too deep.
     fn tree(&mut self, root: Node<'doc, 'doc>) -> Result<(), Fault> {
         let mut open: Vec<Open<'doc>> = Vec::new();
-        open.extend(self.element(root, 1.0, true)?);
+        open.extend(self.element(root, DAffine2::IDENTITY, true)?);
         while let Some(container) = open.last_mut() {
             let Some(node) = container.next else {
                 open.pop();
@@ -137,19 +138,19 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             if !node.is_element() || attributes::is_silent(node) {
                 continue;
             }
-            let (stretch, heard) = (container.stretch, container.heard);
+            let (to_root, heard) = (container.to_root, container.heard);
             if open.len() >= MAX_DEPTH {
                 let what = "elements inside each other";
                 let problem = Problem::TooMany { what, limit: MAX_DEPTH };
                 return Err(self.listener.fault(problem, node, ""));
             }
-            open.extend(self.element(node, stretch, heard)?);
+            open.extend(self.element(node, to_root, heard)?);
         }
         Ok(())
     }
 
     /// Looks at an element, and opens it unless nobody sees what is inside.
-    fn element(&mut self, node: Node<'doc, 'doc>, stretch: f64, heard: bool) -> Result<Option<Open<'doc>>, Fault> {
+    fn element(&mut self, node: Node<'doc, 'doc>, to_root: DAffine2, heard: bool) -> Result<Option<Open<'doc>>, Fault> {
         let name = node.tag_name().name();
         let is_effect = name.starts_with("fe")
             && node
@@ -162,8 +163,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             return Ok(None);
         }
         let look = check::look(self.listener, node, heard && !self.is_whitened(node))?;
-        let stretch = stretch * look.stretch;
-        if look.reach * stretch > f64::from(f32::MAX) {
+        let to_root = to_root * look.to_parent;
+        if !is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
         }
         let heard = heard && look.displayed;
@@ -181,7 +182,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         Ok(Some(Open {
             node,
             next: node.first_child(),
-            stretch,
+            to_root,
             heard,
         })
         .filter(|open| open.node.has_children()))
@@ -255,12 +256,15 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         if is_own_triangle(node) {
             return;
         }
-        for at in nonsense::names(self.text, node) {
-            self.edits.insert(at, nonsense::UNREAD.to_owned());
-        }
+        nonsense::hide(self.text, node, &mut self.edits);
         if node.tag_name().name() == "style" {
+            let (cuts, between) = sheets::cuts(self.text, node).unwrap_or_default();
+            for at in cuts {
+                self.edits.insert(at, between.clone());
+            }
             let css: String = node.children().filter_map(|part| part.text()).collect();
-            for message in nonsense::selectors_in_vain(&css) {
+            let at_rules = nonsense::at_rules_in_vain(&css).into_iter();
+            for message in at_rules.chain(nonsense::selectors_in_vain(&css)) {
                 self.listener.warn(node, message);
             }
             for (at, message) in nonsense::names_in_sheet(self.text, node) {
@@ -368,6 +372,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         };
         self.listener.warn(node, message.to_owned());
     }
+}
+
+/// Whether no coordinate up to `reach` is moved beyond the range of 32-bit floats.
+fn is_within_floats(to_root: DAffine2, reach: f64) -> bool {
+    let [x, y] = [to_root.matrix2.x_axis.abs(), to_root.matrix2.y_axis.abs()];
+    let furthest = (x + y) * reach + to_root.translation.abs();
+    // What is not a number is beyond it, too.
+    furthest.cmple(DVec2::splat(f64::from(f32::MAX))).all()
 }
 
 /// Whether a `switch` has something else to show than this.

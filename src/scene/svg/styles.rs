@@ -7,6 +7,7 @@ use roxmltree::{Node, NodeId};
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
 use super::listener::Listener;
+use super::sheets;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
@@ -52,7 +53,7 @@ impl<'doc> Styles<'doc> {
             .descendants()
             .filter(|node| node.has_tag_name("style") || node.tag_name().name() == "style")
         {
-            sheet.parse_more(node.text().unwrap_or(""));
+            sheets::parse(&mut sheet, node.text().unwrap_or(""));
         }
         if sheet.rules.is_empty() {
             return Ok(Self::default());
@@ -130,21 +131,22 @@ impl<'doc> Styles<'doc> {
 }
 
 /// Refuses styles that take too long to read: at the end of every value simplecss counts lines from the beginning of its
-/// style, so that time grows with the square of a style's length.
-pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, listener: &L) -> Result<(), Fault> {
+/// style, so that time grows with the square of a style's length; sheets are read in pieces where they can be cut in `text`.
+pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, text: &str, listener: &L) -> Result<(), Fault> {
     let mut passed = 0_u64;
     for node in root.descendants().filter(Node::is_element) {
         let sheet = (node.tag_name().name() == "style").then(|| node.text()).flatten();
-        for (style, readings) in [node.attribute("style"), sheet].into_iter().zip(READINGS) {
-            let style = style.unwrap_or("").as_bytes();
-            let values = style
-                .iter()
-                .filter(|byte| matches!(byte, b':' | b';' | b'{' | b'}'))
-                .count() as u64
-                / 2;
-            // On average half of the style lies before a value.
-            passed = passed.saturating_add(values.saturating_mul(style.len() as u64) / 2 * readings);
-        }
+        let style = node.attribute("style").unwrap_or("");
+        passed = passed.saturating_add(passed_over(style).saturating_mul(READINGS[0]));
+        let pieces: u64 = match sheet.map(|sheet| (sheet, sheets::cuts(text, node))) {
+            Some((sheet, Some(_))) => {
+                let pieces = sheets::pieces(sheet).into_iter();
+                pieces.map(|piece| passed_over(&sheet[piece])).sum()
+            }
+            Some((sheet, None)) => passed_over(sheet),
+            None => 0,
+        };
+        passed = passed.saturating_add(pieces.saturating_mul(READINGS[1]));
         if passed > MAX_PASSED {
             let what = "bytes to pass over while styles are read, where each value counts all before it";
             let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
@@ -152,6 +154,13 @@ pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, listener: &L) -> Result<(
         }
     }
     Ok(())
+}
+
+/// The bytes before the ends of all values of a style together.
+fn passed_over(style: &str) -> u64 {
+    let marks = style.bytes().filter(|byte| matches!(byte, b':' | b';' | b'{' | b'}'));
+    // On average half of the style lies before a value.
+    (marks.count() as u64 / 2).saturating_mul(style.len() as u64) / 2
 }
 
 /// Elements that keep the width of their lines, whatever their transforms (`vector-effect: non-scaling-stroke`).
@@ -163,7 +172,7 @@ impl Effects {
     pub(super) fn below(root: Node<'_, '_>) -> Self {
         let mut sheet = StyleSheet::new();
         for node in root.descendants().filter(|node| node.tag_name().name() == "style") {
-            sheet.parse_more(node.text().unwrap_or(""));
+            sheets::parse(&mut sheet, node.text().unwrap_or(""));
         }
         let is_effect = |declaration: &&simplecss::Declaration<'_>| declaration.name == "vector-effect";
         let rules: Vec<_> = (sheet.rules.iter())

@@ -13,6 +13,8 @@ enum Kind {
     /// A colour, a reference, or nothing.
     Paint,
     Color,
+    /// Another element, or nothing.
+    Reference,
     Transform,
     Points,
     ViewBox,
@@ -42,6 +44,7 @@ fn kind(name: &str) -> Option<Kind> {
         "opacity" | "fill-opacity" | "stroke-opacity" | "stop-opacity" | "stroke-miterlimit" | "offset" => Kind::Number,
         "fill" | "stroke" => Kind::Paint,
         "color" | "stop-color" => Kind::Color,
+        "clip-path" | "mask" => Kind::Reference,
         "transform" | "gradientTransform" | "patternTransform" => Kind::Transform,
         "points" => Kind::Points,
         "viewBox" => Kind::ViewBox,
@@ -75,7 +78,7 @@ pub(super) fn is_known(name: &str) -> bool {
 pub(super) fn is_numeric(name: &str) -> bool {
     !matches!(
         kind(name),
-        None | Some(Kind::Words(_) | Kind::Paint | Kind::Color | Kind::Aspect)
+        None | Some(Kind::Words(_) | Kind::Paint | Kind::Color | Kind::Reference | Kind::Aspect)
     )
 }
 
@@ -104,6 +107,7 @@ pub(super) fn is_understood(name: &str, value: &str) -> bool {
             .is_ok(),
         Kind::Paint => Paint::from_str(value).is_ok(),
         Kind::Color => value == "currentColor" || value.parse::<svgtypes::Color>().is_ok(),
+        Kind::Reference => value.starts_with("url("),
         Kind::Transform => transform(value).is_some(),
         Kind::Points => {
             let numbers: Result<Vec<f64>, _> = NumberListParser::from(value).collect();

@@ -347,6 +347,22 @@ fn svg_nonsense_is_ignored_with_a_warning() {
             "points=\"0,0 1,0 1,1 x,y\" is not understood and has no effect",
         ),
         ("<image width='1' height='1'/>", "not drawn: it has no href"),
+        (
+            "<rect width='1' height='1' style='clip-path: circle(40%)'/>",
+            "clip-path=\"circle(40%)\" is not understood and has no effect",
+        ),
+        (
+            "<rect width='1' height='1' rx='1' style='rx: 1px; ry: 2px'/>",
+            "ry has no effect in a style; write it as an attribute",
+        ),
+        (
+            "<style>@media screen { rect { fill: red } } @media print { rect { fill: none } }</style>",
+            "the rules inside \"@media screen\" have no effect; take them out of it",
+        ),
+        (
+            "<style>@import url('a.css');</style>",
+            "\"@import url('a.css')\" has no effect; other style sheets are not fetched",
+        ),
     ] {
         let scene = svg_scene(body);
         let lines = lines(&scene);
@@ -369,8 +385,21 @@ fn svg_colors_that_nobody_understands_let_others_through() {
             "<rect fill='#D9D9D9' SHAPE/>",
         ),
         (
-            "<rect fill='lime' style='fill: oklch(0.7 0.1 100)' SHAPE/>",
+            "<rect fill='lime' style='fill: color(rec2020 1 0 0)' SHAPE/>",
             "<rect fill='lime' SHAPE/>",
+        ),
+        ("<rect unread-fill='1' fill='reddish' SHAPE/>", "<rect SHAPE/>"),
+        (
+            "<rect fill='lime' style='fill: oklch(51.975% 0.17686 142.495); stroke: color(srgb 1 0.5 0 / 50%)' SHAPE/>",
+            "<rect fill='#008000' stroke='#ff800080' SHAPE/>",
+        ),
+        (
+            "<g color='lime'><rect fill='currentcolor' stroke='rebeccapurple' SHAPE/></g>",
+            "<g color='lime'><rect fill='currentColor' stroke='#663399' SHAPE/></g>",
+        ),
+        (
+            "<g style='--main: rgb(255, 0, 0)'><rect fill='var(--main, lime)' SHAPE/></g>",
+            "<g><rect fill='#f00' SHAPE/></g>",
         ),
         (
             "<g fill='lime'><rect fill='reddish' SHAPE/></g>",
@@ -395,6 +424,22 @@ fn svg_colors_that_nobody_understands_let_others_through() {
 }
 
 #[test]
+fn long_style_sheets_are_read_in_pieces() {
+    let rule = |i: usize| format!(".c{i} {{ fill: #{i:06x}; stroke: none }} /* }} */\n");
+    let rules: String = (0..20_000).map(rule).collect();
+    let shapes = "<rect class='c7' width='9' height='9'/><rect class='c19999' width='9' height='9'/>";
+    let plain = "<rect fill='#000007' width='9' height='9'/><rect fill='#004e1f' width='9' height='9'/>";
+    let plain = svg_scene(plain);
+    for sheet in [
+        format!("<style>{rules}</style>"),
+        format!("<style type='text/css'><![CDATA[{rules}]]></style>"),
+    ] {
+        let scene = svg_scene(&format!("{sheet}{shapes}"));
+        assert_eq!(kinds(&scene), kinds(&plain), "{:?}", lines(&scene));
+    }
+}
+
+#[test]
 fn svg_numbers_without_end_are_refused() {
     for body in [
         "<rect width='1e400' height='1'/>",
@@ -413,6 +458,11 @@ fn svg_numbers_without_end_are_refused() {
         assert!(line.starts_with("test.svg:2:"), "{body}: {line}");
         assert!(!line.contains('\n') && line.contains("3.4e38"), "{body}: {line}");
     }
+    // Groups inside each other move their shape by the sum, not by the product.
+    let (open, close) = ("<g transform='translate(900, 700)'>".repeat(20), "</g>".repeat(20));
+    let turned = "<g transform='rotate(1 250 250)'>".repeat(20);
+    let scene = svg_scene(&format!("{open}{turned}<rect width='9' height='9'/>{close}{close}"));
+    assert_eq!(scene.primitives.len(), 1, "far, but not that far");
     let scene = svg_scene("<rect x='-1e30' y='-1e30' width='2e30' height='2e30'/>");
     assert_eq!(scene.primitives.len(), 1, "large numbers are legal");
 }

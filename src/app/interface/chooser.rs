@@ -1,5 +1,6 @@
 //! Choosing a file with the mouse: the folders and files of one folder, of which only those are listed that can be opened.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -33,6 +34,9 @@ pub(super) struct Item {
 
 /// What a picture is called in the list.
 const PICTURE: &str = "picture";
+/// What a lesson is called in the list, and how much of it is looked at for its first step, in bytes.
+const LESSON: &str = "lesson";
+const LONGEST_HEAD: u64 = 64 << 10;
 /// What a folder is called in the list.
 const FOLDER: &str = "folder";
 
@@ -124,7 +128,8 @@ fn items(folder: &Path) -> io::Result<Vec<Item>> {
         } else {
             kind_of_file(&path)
         };
-        if let Some(kind) = kind.filter(|_| !name.starts_with('.')) {
+        let opens = |kind: &&str| !name.starts_with('.') && (*kind != LESSON || path.is_file() && has_steps(&path));
+        if let Some(kind) = kind.filter(opens) {
             items.push(Item {
                 path,
                 name: crate::plain::into_line(name),
@@ -136,6 +141,17 @@ fn items(folder: &Path) -> io::Result<Vec<Item>> {
     Ok(items)
 }
 
+/// Whether this may be a lesson: many files that are none end in `.toml`.
+fn has_steps(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(LONGEST_HEAD).read_to_end(&mut head));
+    let text = String::from_utf8_lossy(&head);
+    read.is_ok()
+        && text
+            .lines()
+            .any(|line| line.trim_start_matches(['[', ' ', '\t']).starts_with("step"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,8 +161,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         fs::create_dir(folder.path().join("zoo")).expect("a folder");
         fs::create_dir(folder.path().join(".hidden")).expect("a folder");
-        for name in ["b10.svg", "b9.SVG", "c.png", "l.toml", "notes.txt", ".x.svg"] {
+        for name in ["b10.svg", "b9.SVG", "c.png", "notes.txt", ".x.svg"] {
             fs::write(folder.path().join(name), "").expect("a file");
+        }
+        for (name, text) in [("l.toml", "title = 'x'\n[[step]]\n"), ("Cargo.toml", "[package]\n")] {
+            fs::write(folder.path().join(name), text).expect("a file");
         }
         let items = items(folder.path()).expect("listed");
         let lines: Vec<(&str, &str)> = items.iter().map(|item| (item.name.as_str(), item.kind)).collect();

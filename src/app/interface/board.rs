@@ -25,6 +25,8 @@ use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, Toggle, V
 const MARGIN: f32 = 10.0;
 /// What the card's frame takes of its width and height, in points.
 const FRAME: f32 = 14.0;
+/// Height of what is below title and controls at least, in points.
+const LEAST_TILES: f32 = 60.0;
 /// Width of the controls in one or two rows, in points.
 const CONTROLS: f32 = 660.0;
 
@@ -72,19 +74,27 @@ impl BoardCard {
                     ui.set_width(width);
                     let top = ui.cursor().top();
                     head(ui, viewer, commands);
-                    controls(ui, viewer, commands);
-                    self.above = ui.cursor().top() - top;
-                    if tiles.is_empty() {
-                        let hint = "Nothing to compare yet: Add A puts the settings of the picture here, Vary one entry for each value of \
-                                    a setting.";
-                        ui.label(RichText::new(hint).small().weak());
-                        return;
+                    let head = ui.cursor().top() - top;
+                    // In a low window the controls go out of sight, and what closes the board does not.
+                    let is_low = room.y < self.above + LEAST_TILES;
+                    if !is_low {
+                        self.controls(ui, viewer, head, commands);
+                        if tiles.is_empty() {
+                            return;
+                        }
                     }
+                    let above = if is_low { head } else { self.above };
                     ScrollArea::vertical()
                         .id_salt("board tiles")
-                        .max_height((room.y - self.above).max(60.0))
+                        .max_height((room.y - above).max(LEAST_TILES))
                         .show(ui, |ui| {
                             super::look::bars_beside(ui);
+                            if is_low {
+                                self.controls(ui, viewer, head, commands);
+                            }
+                            if tiles.is_empty() {
+                                return;
+                            }
                             // For the frame around the tile that A is.
                             ui.add_space(2.0);
                             match grid {
@@ -95,6 +105,18 @@ impl BoardCard {
                 });
             });
         Some(area.response.rect)
+    }
+
+    /// What is above the tiles, below a title so high.
+    fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, head: f32, commands: &mut Vec<Command>) {
+        let top = ui.cursor().top();
+        controls(ui, viewer, commands);
+        self.above = head + ui.cursor().top() - top;
+        if viewer.board().tiles().is_empty() {
+            let hint = "Nothing to compare yet: Add A puts the settings of the picture here, Vary one entry for each value of \
+                        a setting.";
+            ui.label(RichText::new(hint).small().weak());
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The corner of the picture where a card lies.
 
-use egui::{Align2, Context, Rect, Vec2};
+use egui::{Align2, Context, Rect, ScrollArea, Ui, Vec2};
+
+use super::look;
 
 /// The corners where it may lie, the best first: words and settings stand on the left.
 const CORNERS: [Align2; 4] = [
@@ -11,6 +13,25 @@ const CORNERS: [Align2; 4] = [
 ];
 /// How near to what it gives way to the card may come, in points.
 pub(super) const APART: f32 = 16.0;
+
+/// Height of what is always to be seen of a card's contents, in points.
+const LEAST_HEIGHT: f32 = 40.0;
+
+/// What is below a card's title, `needed` points high: with a bar beside it where it is higher than there is `room` for, so that
+/// the title, which closes the card, stays in the window.
+pub(super) fn below_title(ui: &mut Ui, [needed, room]: [f32; 2], contents: impl FnOnce(&mut Ui)) {
+    if needed <= room {
+        return contents(ui);
+    }
+    look::bars_beside(ui);
+    let height = room.max(LEAST_HEIGHT);
+    // As high as it may be from the first pass on: the card would keep the height of what it said before.
+    ScrollArea::vertical()
+        .id_salt("below the title")
+        .max_height(height)
+        .min_scrolled_height(height)
+        .show(ui, contents);
+}
 
 /// Where a card is.
 #[derive(Debug, Default)]

@@ -23,6 +23,9 @@ const WIDTH: f32 = 1000.0;
 /// Height of what the page has besides its pictures, in points.
 const REST: f32 = 120.0;
 
+/// Height of the pictures in sight at least, in points: in a low window less than one.
+const LEAST_HEIGHT: f32 = 64.0;
+
 /// A folder with the scenes that were found in it, by rows.
 type Group = (Option<String>, Vec<Vec<usize>>);
 
@@ -58,7 +61,7 @@ impl Dialogs {
             let moves = just_opened || turn != Turn::default();
             self.chosen = chosen.unwrap_or(self.chosen);
             let mut taken = chosen.filter(|_| enter);
-            let height = (screen.height() * 0.86 - REST).max(CELL.height());
+            let height = (screen.height() * 0.86 - REST).max(LEAST_HEIGHT);
             look::bars_beside(ui);
             // What another text finds begins at its beginning.
             let area = ScrollArea::vertical()

@@ -18,6 +18,8 @@ const MOST_ROWS: f32 = 14.0;
 const FEW_ROWS: f32 = 9.0;
 /// What the button to the folder above does.
 const UP: &str = "The folder that this one is in";
+/// Where all buttons below the list have room in one row, in points.
+const BOTH_SIDES: f32 = 310.0;
 /// Its width at most, in points.
 const WIDTH: f32 = 480.0;
 
@@ -178,24 +180,39 @@ enum Foot {
 
 /// Those buttons; which was pressed.
 fn foot(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
-    let mut pressed = None;
+    if ui.available_width() < BOTH_SIDES {
+        // Otherwise they would cover each other.
+        let to_folders = ui.horizontal(|ui| other_folders(ui, has_parent)).inner;
+        let rest = ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), ends).inner);
+        return to_folders.or(rest.inner);
+    }
     ui.horizontal(|ui| {
-        for (foot, text, tip) in [(Foot::Up, "Up", UP), (Foot::Home, "Home", "Your own folder")] {
-            let enabled = has_parent || matches!(foot, Foot::Home);
-            let button = ui.add_enabled(enabled, Button::new(text).min_size(vec2(44.0, CONTROL.y)));
-            if button.on_hover_text(tip).clicked() {
-                pressed = Some(foot);
-            }
+        let to_folders = other_folders(ui, has_parent);
+        let rest = ui.with_layout(Layout::right_to_left(Align::Center), ends).inner;
+        to_folders.or(rest)
+    })
+    .inner
+}
+
+/// The buttons to other folders.
+fn other_folders(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
+    let mut pressed = None;
+    for (foot, text, tip) in [(Foot::Up, "Up", UP), (Foot::Home, "Home", "Your own folder")] {
+        let enabled = has_parent || matches!(foot, Foot::Home);
+        let button = ui.add_enabled(enabled, Button::new(text).min_size(vec2(44.0, CONTROL.y)));
+        if button.on_hover_text(tip).clicked() {
+            pressed = Some(foot);
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let folder = ui.add(Button::new("Open this folder").min_size(CONTROL));
-            if folder.on_hover_text("Opens every scene in it").clicked() {
-                pressed = Some(Foot::Folder);
-            }
-            if ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked() {
-                pressed = Some(Foot::Cancel);
-            }
-        });
-    });
+    }
     pressed
+}
+
+/// The buttons that end the dialog, the last first.
+fn ends(ui: &mut Ui) -> Option<Foot> {
+    let folder = ui.add(Button::new("Open this folder").min_size(CONTROL));
+    if folder.on_hover_text("Opens every scene in it").clicked() {
+        return Some(Foot::Folder);
+    }
+    let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y)));
+    cancel.clicked().then_some(Foot::Cancel)
 }

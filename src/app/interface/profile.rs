@@ -14,7 +14,7 @@
 use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::controls::{choice, tip};
-use super::corner::{APART, CardCorner};
+use super::corner::{APART, CardCorner, below_title};
 use super::floating::things;
 use super::look::CONTROL;
 use super::profile_plot;
@@ -29,6 +29,8 @@ const WIDTHS: [f32; 2] = [236.0, 340.0];
 const HEIGHTS: [f32; 2] = [64.0, 140.0];
 /// What frame, title, values and the line below the plot take of the height, in points.
 const BESIDES: f32 = 116.0;
+/// Height of the title with what is around the card's contents, in points.
+const HEAD: f32 = 46.0;
 /// Height of a row of numbers, in points, and with the space below it.
 const LINE: f32 = 16.0;
 const ROW: f32 = 21.0;
@@ -114,9 +116,11 @@ impl ProfileCard {
                         ui.label(RichText::new(hint).small().weak());
                         return;
                     }
-                    channels(ui, viewer.profile().channel(), commands);
-                    pixel = profile_plot::show(ui, viewer, &curves, vec2(width, height));
-                    numbers(ui, &curves, viewer.profile().channel());
+                    below_title(ui, [size.y, room.height()].map(|height| height - HEAD), |ui| {
+                        channels(ui, viewer.profile().channel(), commands);
+                        pixel = profile_plot::show(ui, viewer, &curves, vec2(width, height));
+                        numbers(ui, &curves, viewer.profile().channel());
+                    });
                 });
             });
         self.corner.drawn(ui.ctx(), area.response.rect);

@@ -15,7 +15,7 @@
 use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichText, Sense, Ui, vec2};
 
 use super::controls::{choice, tip};
-use super::corner::CardCorner;
+use super::corner::{CardCorner, below_title};
 use super::floating::things;
 use super::look::CONTROL;
 use super::spectrum_plot::SpectrumPlot;
@@ -30,6 +30,8 @@ const SIDES: [f32; 4] = [320.0, 270.0, 220.0, 190.0];
 const BESIDES: f32 = 196.0;
 /// Width of the card around its contents, in points.
 const FRAME: f32 = 14.0;
+/// Height of the title with what is around the card's contents, in points.
+const HEAD: f32 = 46.0;
 /// Width of the words about colours, in points.
 const LEGEND: f32 = 12.0;
 /// The part of a wave's power from which on it is told to be an alias.
@@ -77,18 +79,21 @@ impl SpectrumCard {
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(side);
                     head(ui, commands);
-                    choices(ui, viewer, commands);
-                    let found = spectrum.found().filter(|found| found.analysis.of() == spectrum.of());
-                    match found {
-                        Some(found) => {
-                            reading = self.plot.show(ui, found, side, spectrum.is_current());
-                            words(ui, found, reading.as_ref());
-                            legend(ui, found);
+                    let heights = [size_of(side).y, room.height()].map(|height| height - HEAD);
+                    below_title(ui, heights, |ui| {
+                        choices(ui, viewer, commands);
+                        let found = spectrum.found().filter(|found| found.analysis.of() == spectrum.of());
+                        match found {
+                            Some(found) => {
+                                reading = self.plot.show(ui, found, side, spectrum.is_current());
+                                words(ui, found, reading.as_ref());
+                                legend(ui, found);
+                            }
+                            None => {
+                                ui.label(RichText::new(hint(viewer)).small().weak());
+                            }
                         }
-                        None => {
-                            ui.label(RichText::new(hint(viewer)).small().weak());
-                        }
-                    }
+                    });
                 });
             });
         self.corner.drawn(ui.ctx(), area.response.rect);

@@ -22,6 +22,8 @@ mod keyboard;
 #[cfg(test)]
 mod lessons;
 #[cfg(test)]
+mod low_windows;
+#[cfg(test)]
 mod magnifiers;
 #[cfg(test)]
 mod menus;

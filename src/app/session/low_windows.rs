@@ -1,0 +1,67 @@
+//! Low and narrow windows: what closes a card stays in sight, and no button lies over another.
+
+use std::path::{Path, PathBuf};
+
+use egui::accesskit::Node;
+
+use super::hands::{nodes, place_of, session};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Axis, BoardCommand, Dialog, ProfileCommand, SpectrumCommand, Toggle, WindowCommand};
+
+fn rings() -> Vec<PathBuf> {
+    vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/01_zone_plate.svg")]
+}
+
+#[test]
+fn cards_keep_their_titles_in_the_window() {
+    let axis = Axis::of("sample-rate", "1,4,16").expect("an axis");
+    for (command, close) in [
+        (
+            Command::Spectrum(SpectrumCommand::Show(Toggle::On)),
+            "Close the spectrum",
+        ),
+        (Command::Board(BoardCommand::Vary(axis)), "Close the board"),
+        (
+            Command::Profile(ProfileCommand::SetLine([[20, 20], [150, 90]])),
+            "Close the edge profile",
+        ),
+    ] {
+        for window in [[300, 180], [300, 250], [2500, 300], [900, 200]] {
+            let mut session = session(rings(), window);
+            session.command(command.clone());
+            session.settle();
+            session.settle();
+            let top = place_of(&mut session, close).y;
+            assert!(
+                top > 10.0 && top < f64::from(window[1]) - 10.0,
+                "{close} in {window:?}: {top}"
+            );
+        }
+    }
+}
+
+#[test]
+fn buttons_of_narrow_dialogs_lie_beside_each_other() {
+    for window in [[240, 220], [300, 200], [360, 240], [800, 600]] {
+        let mut session = session(rings(), window);
+        session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::Open)));
+        session.settle();
+        let nodes = nodes(&mut session);
+        let found = ["Up", "Home", "Cancel", "Open this folder"].map(|name| {
+            let node = nodes.iter().find(|node| node.label() == Some(name));
+            let bounds = node.and_then(Node::bounds);
+            bounds.unwrap_or_else(|| panic!("no {name} in {window:?}"))
+        });
+        for (i, one) in found.iter().enumerate() {
+            assert!(
+                one.x0 >= 0.0 && one.y1 <= f64::from(window[1]),
+                "{i} in {window:?}: {one:?}"
+            );
+            for other in &found[..i] {
+                let apart = one.x0 >= other.x1 || other.x0 >= one.x1 || one.y0 >= other.y1 || other.y0 >= one.y1;
+                assert!(apart, "{one:?} over {other:?} in {window:?}");
+            }
+        }
+    }
+}

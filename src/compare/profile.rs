@@ -149,7 +149,8 @@ impl Profile {
             return None;
         }
         let parts: Vec<f64> = values.iter().map(|value| (value - from) / step).collect();
-        let beyond = |part: f64| part.max(0.0);
+        // The sum has no sign where it is nothing.
+        let beyond = |part: f64| part.max(0.0) + 0.0;
         let most = parts.iter().copied().fold(0.0, f64::max) - 1.0;
         let least = -parts.iter().copied().fold(0.0, f64::min);
         // By lightness, so that a line has the same numbers backwards.

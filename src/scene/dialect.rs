@@ -200,7 +200,7 @@ impl Traits {
         self.foreign |= !is_known || is_picture || is_styled_as_svg(node) || is_only_svg(node);
         self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
         self.drawn |= is_known && name != "g";
-        self.differs |= !is_known || is_picture || is_styled_as_svg(node) || course::is_read_otherwise(node);
+        self.differs |= !is_known || is_styled_as_svg(node) || course::is_read_otherwise(node);
     }
 
     /// The course's dialect if the document uses what only the course has; or nothing that the course does not have,

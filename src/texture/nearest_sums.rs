@@ -81,29 +81,23 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
     /// For a plan that reads the nearest texel of one level, at all samples of a grid; `None` where it does not, or numbers are too
     /// large.
     pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
-        let rows = 0..side;
-        Self::of_places(
-            plan,
-            side,
-            &rows.flat_map(|row| (0..side).map(move |column| [column, row])),
-        )
+        Self::at(plan, side, (side * side) as usize, |axis| Offsets::of_grid(axis, side))
     }
 
     /// As [`NearestSamples::new`], at samples that lie there in a pixel of `side` columns and rows.
-    pub(super) fn of_places(
-        plan: &Plan<'a>,
-        side: u32,
-        places: &(impl Iterator<Item = [u32; 2]> + Clone),
-    ) -> Option<Self> {
+    pub(super) fn of_places(plan: &Plan<'a>, side: u32, places: &[[u8; 2]]) -> Option<Self> {
+        Self::at(plan, side, places.len(), |axis| Offsets::of_places(axis, side, places))
+    }
+
+    fn at(plan: &Plan<'a>, side: u32, count: usize, offsets: impl Fn(&Axis) -> Option<Offsets<N>>) -> Option<Self> {
         let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
-        let count = if is_one { places.clone().count() } else { 0 };
-        if count == 0 || count > N {
+        if !is_one || count > N {
             return None;
         }
         let offsets = |axis: &Axis| {
             let farthest = plan.first.abs() + LIST;
             let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
-            Offsets::new(axis, side, places.clone()).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
+            offsets(axis).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
         };
         let mut samples = Self {
             x: offsets(&plan.finer.x)?,
@@ -136,14 +130,36 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
 }
 
 impl<const N: usize> Offsets<N> {
-    fn new(axis: &Axis, side: u32, places: impl Iterator<Item = [u32; 2]>) -> Option<Self> {
+    /// Of all samples of a grid.
+    fn of_grid(axis: &Axis, side: u32) -> Option<Self> {
         let middle = f64::from(side - 1) / 2.0;
-        let reach = (axis.right.abs() + axis.down.abs()) * middle + AWAY;
+        let mut of_samples = [0; N];
+        for (j, row) in of_samples
+            .chunks_exact_mut(side as usize)
+            .take(side as usize)
+            .enumerate()
+        {
+            let down = (j as f64 - middle) * axis.down;
+            for (i, offset) in row.iter_mut().enumerate() {
+                *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
+            }
+        }
+        Self::within(axis, side, of_samples)
+    }
+
+    /// Of samples that lie there in a pixel.
+    fn of_places(axis: &Axis, side: u32, places: &[[u8; 2]]) -> Option<Self> {
+        let middle = f64::from(side - 1) / 2.0;
         let mut of_samples = [0; N];
         for (offset, [column, row]) in of_samples.iter_mut().zip(places) {
-            let down = (f64::from(row) - middle) * axis.down;
-            *offset = to_units(down + (f64::from(column) - middle) * axis.right) + UNCERTAIN / 2;
+            let down = (f64::from(*row) - middle) * axis.down;
+            *offset = to_units(down + (f64::from(*column) - middle) * axis.right) + UNCERTAIN / 2;
         }
+        Self::within(axis, side, of_samples)
+    }
+
+    fn within(axis: &Axis, side: u32, of_samples: [i32; N]) -> Option<Self> {
+        let reach = (axis.right.abs() + axis.down.abs()) * (f64::from(side - 1) / 2.0) + AWAY;
         reach.is_finite().then_some(Self { of_samples, reach })
     }
 
@@ -390,8 +406,7 @@ mod tests {
                 last: 63.0,
             };
             for side in [2, 3, 4] {
-                let places = (0..side * side).map(|i| [i % side, i / side]);
-                let offsets = Offsets::<FEW>::new(&axis, side, places).expect("not too far");
+                let offsets = Offsets::<FEW>::of_grid(&axis, side).expect("not too far");
                 for centre in [-offsets.reach, axis.last + offsets.reach] {
                     let places = offsets.of_samples[..(side * side) as usize].iter();
                     let least = places.map(|offset| (to_units(centre) + offset) & (ONE - 1)).min();

@@ -77,8 +77,7 @@ fn sum_of<const N: usize>(
     list: ValueList<'_>,
     sums: &mut [[u64; 3]],
 ) -> bool {
-    let places = list.inside.iter().map(|place| place.map(u32::from));
-    let Some(samples) = NearestSamples::<N>::of_places(plan, side, &places) else {
+    let Some(samples) = NearestSamples::<N>::of_places(plan, side, list.inside) else {
         return false;
     };
     match FirstTexel::of_few(&samples) {
@@ -301,8 +300,7 @@ mod tests {
                 }
                 assert_eq!(found, expected, "{name}: {filter:?} {grid:?} {inside:?}");
             }
-            let places = inside.iter().map(|place| place.map(u32::from));
-            let samples = NearestSamples::<MANY>::of_places(&plan, grid.side, &places);
+            let samples = NearestSamples::<MANY>::of_places(&plan, grid.side, &inside);
             let counted = samples.and_then(|samples| FirstTexel::of_few(&samples));
             *(if counted.is_some() { &mut few } else { &mut other }) += 1;
             Ok(())

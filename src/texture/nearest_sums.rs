@@ -24,10 +24,11 @@ use fearless_simd::{Simd, u8x16, u16x8, u32x4};
 use glam::DVec2;
 
 use super::PixelSampling;
+use super::bilinear::add;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
 use super::fixed_point::FRACTION_BITS;
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows, in_texture};
-use super::wrap::Endless;
+use super::wrap::{self, Endless};
 use super::{block_filter, sample_filter};
 use crate::color::Premultiplied16;
 
@@ -349,18 +350,44 @@ fn sum_some(texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize, mask: u
 #[cold]
 #[inline(never)]
 fn exact<S: Simd, const N: usize>(simd: S, plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32; 4] {
+    /// Fewer are found sooner by themselves.
+    const VECTOR: u32 = 5;
     let samples = (0..side).flat_map(|row| (0..side).map(move |column| [column, row]));
     let masked = samples.zip(0..).filter(|(_, i)| {
         let bit = |mask: u64| mask.checked_shr(*i).unwrap_or(0) & 1;
         mask.is_none_or(|mask| bit(mask) == 1)
     });
+    let inside = masked.map(|(inside, _)| inside);
+    if mask.map_or(side * side, u64::count_ones) < VECTOR {
+        let mut sums = [0; 4];
+        for [column, row] in inside {
+            add_sample(
+                plan,
+                [u32::from(pixel[0]) * side + column, u32::from(pixel[1]) * side + row],
+                &mut sums,
+            );
+        }
+        return sums.map(|sum: i32| sum.cast_unsigned() << 8);
+    }
     let mut sums = [0; 4];
-    exact_colors::<S, N>(simd, plan, (side, pixel), masked.map(|(inside, _)| inside), |color| {
+    exact_colors::<S, N>(simd, plan, (side, pixel), inside, |color| {
         for (sum, channel) in sums.iter_mut().zip(color.0) {
             *sum += u32::from(channel);
         }
     });
     sums
+}
+
+/// Adds the texel of the sample in that column and row of the list's.
+fn add_sample(plan: &Plan<'_>, sample: [u32; 2], sums: &mut [i32; 4]) {
+    let level = &plan.finer;
+    let from_pivot = plan.first + DVec2::from_array(sample.map(f64::from));
+    let at = |axis: &Axis| {
+        let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+        wrap::place(axis.last, (plan.wrap, plan.pixel), texels, None)
+    };
+    let at = [at(&level.x), at(&level.y)];
+    add(level.level, (plan.pixel, plan.wrap), at, 1, sums);
 }
 
 /// Calls `each` with the colours of samples that lie there in a pixel, at most `N`, as they are decided one by one.

@@ -16,8 +16,8 @@ pub(crate) const MARGIN: f64 = 1.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileRows {
     /// One left edge, twice, or two.
-    left: [Line; 2],
-    right: [Line; 2],
+    pub(super) left: [Line; 2],
+    pub(super) right: [Line; 2],
 }
 
 /// The columns of some rows, in units of the sub-pixel grid.
@@ -32,9 +32,9 @@ pub(crate) struct ColumnBounds {
 /// The line of an edge that is not horizontal.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Line {
-    x: f64,
-    y: f64,
-    slope: f64,
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) slope: f64,
 }
 
 impl Line {

@@ -11,7 +11,7 @@ use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::free_positions_polygon::{FreePositionsPolygon, PixelSamples};
-use crate::raster::coverage::free_positions_triangle::{FoundRun, PixelReach, TriangleScan};
+use crate::raster::coverage::free_positions_triangle::{FoundPixels, FoundRun, PixelReach, RowParts, TriangleScan};
 use crate::raster::coverage::sample_lanes::SampleLanes;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::sampling::mask::SampleMask;
@@ -34,7 +34,7 @@ pub(crate) struct FreePositions {
     outlines: FreePositionsPolygon,
     /// Where there are few enough samples to look at all of them at once, and what was found so.
     lanes: Option<SampleLanes>,
-    found: Vec<FoundRun>,
+    found: FoundPixels,
 }
 
 impl FreePositions {
@@ -54,7 +54,7 @@ impl FreePositions {
             gains: Vec::with_capacity(SampleRate::MAX as usize),
             outlines: FreePositionsPolygon::new(grid, outlines, columns, places.count()),
             lanes: SampleLanes::new(places.clone()),
-            found: Vec::new(),
+            found: FoundPixels::default(),
             places,
         }
     }
@@ -127,9 +127,11 @@ impl FreePositions {
             return self.triangle_one_by_one(&scan, visit);
         };
         let (found, all) = (&mut self.found, lanes.all());
-        found.clear();
         dispatch!(simd::level(), simd => scan.find(simd, lanes, found));
-        for FoundRun { y, xs, bits } in &*found {
+        for FoundRun { y, xs, bits } in found.runs() {
+            if *bits == 0 {
+                continue;
+            }
             visit(
                 *y,
                 if *bits == all {
@@ -144,8 +146,10 @@ impl FreePositions {
     /// As [`FreePositions::triangle`] for any number of samples.
     fn triangle_one_by_one(&mut self, scan: &TriangleScan, mut visit: impl FnMut(i32, Covered)) {
         self.gains.clear();
-        for y in scan.rows.start..scan.rows.end {
-            let (before, inside, after) = scan.parts(y);
+        let mut rows = std::mem::take(&mut self.found.parts);
+        dispatch!(simd::level(), simd => scan.find_parts(simd, &mut rows));
+        for (y, parts) in (scan.rows.start..).zip(&rows) {
+            let RowParts { before, inside, after } = *parts;
             for x in (before.start..before.end).chain(after.start..after.end) {
                 if let Some(covered) = self.pixel(scan, x, y) {
                     visit(y, covered);
@@ -155,6 +159,7 @@ impl FreePositions {
                 visit(y, Covered::Whole(inside));
             }
         }
+        self.found.parts = rows;
     }
 
     fn pixel(&mut self, scan: &TriangleScan, x: i32, y: i32) -> Option<Covered> {

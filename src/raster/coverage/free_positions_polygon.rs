@@ -380,7 +380,7 @@ impl Sweep {
             }
             for active in &self.active {
                 let edge = &self.edges[*active as usize];
-                let mut winds = samples.inside(edge.value_at(x, side), edge.steps);
+                let mut winds = samples.gains(edge.steps).inside(edge.value_at(x, side));
                 let Span { start, end } = edge.rows;
                 if end - start != side {
                     winds &= rows.simd_ge(number(start)) & rows.simd_lt(number(end));

@@ -1,20 +1,26 @@
 //! What a triangle covers in one tile where samples lie anywhere in their pixels.
 //!
-//! Pixel by pixel: where no edge crosses a pixel, its corners decide at once; elsewhere its samples are asked, all at once by
-//! [`SampleLanes`], or one after the other where there are too many of them.
+//! Of each row of pixels the edges bound what the triangle touches and what it covers for certain, many rows at once. Pixels in
+//! between are noted together with the values of the edges there; then their samples are asked, all of a pixel at once by
+//! [`SampleLanes`]. Where there are too many of them, or no edge crosses the pixel, its corners decide first.
+//!
+//! ```text
+//!     touched   inside    touched
+//!    |- - - - |=========|- - - - -|     one row: `before`, `inside`, `after`
+//! ```
 
 #![expect(
     clippy::inline_always,
     reason = "a function that is not inlined into its dispatch loses the vector instructions"
 )]
 
-use fearless_simd::Simd;
 use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, u64x8};
 
 use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::edge_bounds::TileRows;
-use crate::raster::coverage::sample_lanes::{EdgeSteps, SampleLanes};
+use crate::raster::coverage::edge_bounds::{Line, MARGIN, TileRows};
+use crate::raster::coverage::sample_lanes::{EdgeGains, EdgeSteps, SampleBlock, SampleLanes};
 use crate::raster::sampling::positions::Position;
 use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
@@ -33,13 +39,35 @@ pub(super) struct TriangleScan {
 }
 
 /// Pixels side by side of which the same samples are covered.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FoundRun {
     pub(super) y: i32,
     pub(super) xs: Span,
     /// A bit for each sample.
     pub(super) bits: u64,
 }
+
+/// The pixels of one row that are to be looked at one by one, and those between them that are covered for certain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct RowParts {
+    pub(super) before: Span,
+    pub(super) inside: Span,
+    pub(super) after: Span,
+}
+
+/// What is found in a tile, reusing its memory.
+#[derive(Debug, Default)]
+pub(super) struct FoundPixels {
+    pub(super) parts: Vec<RowParts>,
+    runs: Vec<FoundRun>,
+    /// The values of the edges at each of these; those that keep nothing out where it is covered for certain.
+    values: Vec<[i64; 3]>,
+    /// How many of these were found; others are left over.
+    count: usize,
+}
+
+/// Rows that are bounded together.
+const ROWS: usize = 8;
 
 /// A [`SampleEdge`], whose samples are all points of the lattice.
 #[derive(Clone, Copy, Debug)]
@@ -102,55 +130,72 @@ impl TriangleScan {
         })
     }
 
-    /// The pixels of row `y` that it may touch, and those of them that it covers for certain.
+    /// Finds the parts of all rows, from the first to the last.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to columns of a frame")]
-    pub(super) fn row(&self, y: i32) -> (Span, Span) {
+    pub(super) fn find_parts<S: Simd>(&self, simd: S, parts: &mut Vec<RowParts>) {
+        parts.clear();
+        let rows = usize::try_from(self.rows.end - self.rows.start).unwrap_or(0);
+        parts.resize(
+            rows,
+            RowParts {
+                before: self.columns,
+                ..RowParts::default()
+            },
+        );
         let Some(lines) = &self.lines else {
-            return (self.columns, Span::EMPTY);
+            return;
         };
-        let (columns, side) = (self.columns, self.grid.side());
-        let all = Span {
-            start: y * side,
-            end: (y + 1) * side,
-        };
-        let inside = all.intersection(self.sample_rows);
-        let at = |row| self.grid.sample_coordinate(row);
-        let bounds = lines.between(at(inside.start), at(inside.end - 1));
-        let (least, most) = (f64::from(columns.start), f64::from(columns.end));
-        let per_unit = 1.0 / self.grid.units_per_pixel();
-        // No column of a frame is negative.
-        let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
-        let touched = Span {
-            start: floor(bounds.touched[0]),
-            end: floor(bounds.touched[1]).saturating_add(1).min(columns.end),
-        };
-        if inside != all || bounds.covered[0] > bounds.covered[1] {
-            return (touched, Span::EMPTY);
+        for (y, parts) in (self.rows.start..).step_by(ROWS).zip(parts.chunks_mut(ROWS)) {
+            let [touched, covered] = self.rows_from(simd, lines, y);
+            for (i, parts) in parts.iter_mut().enumerate() {
+                let span = |[start, end]: &[[i32; ROWS]; 2]| Span {
+                    start: start[i],
+                    end: end[i],
+                };
+                *parts = RowParts::new(span(&touched), span(&covered));
+            }
         }
-        let covered = Span {
-            start: (bounds.covered[0] * per_unit).clamp(least, most).ceil() as i32,
-            end: floor(bounds.covered[1]),
-        };
-        (touched, covered)
     }
 
-    /// The parts of row `y` that are to be looked at pixel by pixel, and what is covered between them.
+    /// The first pixels and the ends of what it may touch in [`ROWS`] rows from `y` on, and of what it covers for certain.
     #[inline(always)]
-    pub(super) fn parts(&self, y: i32) -> (Span, Span, Span) {
-        let (touched, inside) = self.row(y);
-        if inside.is_empty() {
-            return (touched, Span::EMPTY, Span::EMPTY);
-        }
-        let before = Span {
-            start: touched.start,
-            end: inside.start,
+    fn rows_from<S: Simd>(&self, simd: S, lines: &TileRows, y: i32) -> [[[i32; ROWS]; 2]; 2] {
+        const NUMBERS: [f64; ROWS] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        let number = |value: f64| f64x8::splat(simd, value);
+        let side = f64::from(self.grid.side());
+        let [least_row, end_row] = [self.sample_rows.start, self.sample_rows.end].map(f64::from);
+        let top = (f64x8::simd_from(simd, NUMBERS) + f64::from(y)) * side;
+        let rows = [top.max(number(least_row)), (top + side).min(number(end_row)) - 1.0];
+        let is_whole = top.simd_ge(number(least_row)) & (top + side).simd_le(number(end_row));
+        // Samples lie in the middle between two lines of their own grid.
+        let unit = f64::from(1 << self.grid.bits());
+        let coordinates = [(rows[0] + 0.5) * unit, (rows[1] + 0.5) * unit];
+        let left = [ends_of(lines.left[0], coordinates), ends_of(lines.left[1], coordinates)];
+        let right = [
+            ends_of(lines.right[0], coordinates),
+            ends_of(lines.right[1], coordinates),
+        ];
+        let (least, most) = (f64::from(self.columns.start), f64::from(self.columns.end));
+        let column = Column {
+            per_unit: 1.0 / self.grid.units_per_pixel(),
+            ends: [number(least), number(most)],
         };
-        let after = Span {
-            start: inside.end,
-            end: touched.end,
-        };
-        (before, inside, after)
+        let touched = [
+            left[0][0].max(left[1][0]) - MARGIN,
+            right[0][1].min(right[1][1]) + MARGIN,
+        ];
+        let covered = [
+            left[0][1].max(left[1][1]) + MARGIN,
+            right[0][0].min(right[1][0]) - MARGIN,
+        ];
+        let [start, end] = [column.at(covered[0]).ceil(), column.at(covered[1]).floor()];
+        let is_inside = is_whole & start.simd_lt(end);
+        let end = is_inside.select(end, start);
+        let after = (column.at(touched[1]).floor() + 1.0).min(column.ends[1]);
+        [
+            [whole(column.at(touched[0]).floor()), whole(after)],
+            [whole(start), whole(end)],
+        ]
     }
 
     /// The values of its edges at a pixel's first point.
@@ -193,52 +238,164 @@ impl TriangleScan {
 
     /// Finds all that is covered, row by row.
     #[inline(always)]
-    pub(super) fn find<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, found: &mut Vec<FoundRun>) {
-        for y in self.rows.start..self.rows.end {
-            let (before, inside, after) = self.parts(y);
-            for xs in [before, after] {
-                if xs.is_empty() {
-                    continue;
-                }
-                let mut values = self.values(xs.start, y);
-                for x in xs.start..xs.end {
-                    let bits = self.bits(simd, lanes, [x, y], values);
-                    if bits != 0 {
-                        let xs = Span { start: x, end: x + 1 };
-                        found.push(FoundRun { y, xs, bits });
-                    }
-                    for (value, edge) in values.iter_mut().zip(&self.edges) {
-                        *value += edge.right_pixel;
-                    }
+    pub(super) fn find<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, found: &mut FoundPixels) {
+        let mut parts = std::mem::take(&mut found.parts);
+        self.find_parts(simd, &mut parts);
+        found.begin(self.columns, self.rows);
+        for (y, RowParts { before, inside, after }) in (self.rows.start..).zip(&parts) {
+            self.note(*before, y, found);
+            if !inside.is_empty() {
+                let (xs, bits) = (*inside, lanes.all());
+                found.put(FoundRun { y, xs, bits }, [INSIDE; 3]);
+                found.count += 1;
+            }
+            self.note(*after, y, found);
+        }
+        found.parts = parts;
+        let (runs, values) = (&mut found.runs[..found.count], &found.values);
+        if lanes.are_same() {
+            for (first, samples) in lanes.blocks(simd) {
+                let gains = self.gains_of(samples);
+                for (run, values) in runs.iter_mut().zip(values) {
+                    run.bits |= inside_all(gains, *values) << first & lanes.all();
                 }
             }
-            if !inside.is_empty() {
-                let bits = lanes.all();
-                found.push(FoundRun { y, xs: inside, bits });
+            return;
+        }
+        let open = runs.iter().filter(|run| run.bits == 0);
+        lanes.prepare(open.map(|run| [run.xs.start, run.y]));
+        for (run, values) in runs.iter_mut().zip(values).filter(|(run, _)| run.bits == 0) {
+            lanes.go_to([run.xs.start, run.y]);
+            for (first, samples) in lanes.blocks(simd) {
+                run.bits |= inside_all(self.gains_of(samples), *values) << first & lanes.all();
             }
         }
     }
 
-    /// The samples of a pixel that are covered, by the values of the edges there.
+    /// What each edge gains from a pixel's first point to some of its samples.
     #[inline(always)]
-    fn bits<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, pixel: [i32; 2], values: [i64; 3]) -> u64 {
-        let values = match self.reach(values) {
-            PixelReach::Nothing => return 0,
-            PixelReach::All => return lanes.all(),
-            PixelReach::Part(values) => values,
-        };
-        lanes.go_to(pixel);
-        let mut bits = 0;
-        for (first, samples) in lanes.blocks(simd) {
-            let mut inside = u64::MAX;
-            for (value, LatticeEdge { steps, .. }) in values.into_iter().zip(&self.edges) {
-                if value != INSIDE {
-                    inside &= samples.inside(value, *steps).to_bitmask();
-                }
+    fn gains_of<S: Simd>(&self, samples: SampleBlock<S>) -> [EdgeGains<S>; 3] {
+        // The closure of a `map` would not be inlined.
+        let [a, b, c] = &self.edges;
+        [samples.gains(a.steps), samples.gains(b.steps), samples.gains(c.steps)]
+    }
+
+    /// Notes the pixels of a row that it may touch, with the values of the edges there.
+    #[inline(always)]
+    fn note(&self, xs: Span, y: i32, found: &mut FoundPixels) {
+        let mut values = self.values(xs.start, y);
+        for x in xs.start..xs.end {
+            let xs = Span { start: x, end: x + 1 };
+            // Noted first and kept where it may be touched: a branch here would be taken by chance.
+            found.put(FoundRun { y, xs, bits: 0 }, values);
+            let mut farthest = 0;
+            for (value, edge) in values.iter_mut().zip(&self.edges) {
+                farthest |= *value + edge.most;
+                *value += edge.right_pixel;
             }
-            bits |= inside << first;
+            found.count += usize::from(farthest >= 0);
         }
-        bits & lanes.all()
+    }
+}
+
+impl FoundPixels {
+    /// What was found, some of it without any samples.
+    pub(super) fn runs(&self) -> &[FoundRun] {
+        &self.runs[..self.count]
+    }
+
+    /// Makes room for so many pixels, and one more.
+    fn begin(&mut self, columns: Span, rows: Span) {
+        let most = (columns.end - columns.start) * (rows.end - rows.start);
+        let most = usize::try_from(most).unwrap_or(0) + 1;
+        if self.runs.len() < most {
+            self.runs.resize(most, FoundRun::default());
+            self.values.resize(most, [0; 3]);
+        }
+        self.count = 0;
+    }
+
+    /// Writes a run that counts once it is counted.
+    #[inline(always)]
+    fn put(&mut self, run: FoundRun, values: [i64; 3]) {
+        self.runs[self.count] = run;
+        self.values[self.count] = values;
+    }
+}
+
+/// Makes columns of pixels of columns of the sub-pixel grid.
+#[derive(Clone, Copy)]
+struct Column<S: Simd> {
+    per_unit: f64,
+    /// The least and the greatest.
+    ends: [f64x8<S>; 2],
+}
+
+impl<S: Simd> Column<S> {
+    #[inline(always)]
+    fn at(&self, units: f64x8<S>) -> f64x8<S> {
+        (units * self.per_unit).max(self.ends[0]).min(self.ends[1])
+    }
+}
+
+/// What a line's columns lie between from one coordinate to another.
+#[inline(always)]
+fn ends_of<S: Simd>(line: Line, coordinates: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
+    let [first, last] = coordinates;
+    let (a, b) = (
+        (first - line.y) * line.slope + line.x,
+        (last - line.y) * line.slope + line.x,
+    );
+    [a.min(b), a.max(b)]
+}
+
+/// Whole numbers that are not negative.
+#[inline(always)]
+fn whole<S: Simd>(values: f64x8<S>) -> [i32; ROWS] {
+    // Where whole numbers stand in the lower bits.
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    let bits: u64x8<S> = (values + WHOLE).bitcast();
+    let (bits, mut numbers) = (bits.to_array(), [0; ROWS]);
+    for (number, bits) in numbers.iter_mut().zip(bits) {
+        *number = low_half(bits);
+    }
+    numbers
+}
+
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+fn low_half(bits: u64) -> i32 {
+    bits as i32
+}
+
+/// The samples that lie on the inner side of each edge, by the edges' values at their pixel's first point.
+#[inline(always)]
+fn inside_all<S: Simd>([a, b, c]: [EdgeGains<S>; 3], values: [i64; 3]) -> u64 {
+    (a.inside(values[0]) & b.inside(values[1]) & c.inside(values[2])).to_bitmask()
+}
+
+impl RowParts {
+    /// Of a row of which so much may be touched, and so much of it is covered.
+    #[inline(always)]
+    fn new(touched: Span, inside: Span) -> Self {
+        if inside.is_empty() {
+            return Self {
+                before: touched,
+                inside: Span::EMPTY,
+                after: Span::EMPTY,
+            };
+        }
+        Self {
+            before: Span {
+                start: touched.start,
+                end: inside.start,
+            },
+            inside,
+            after: Span {
+                start: inside.end,
+                end: touched.end,
+            },
+        }
     }
 }
 

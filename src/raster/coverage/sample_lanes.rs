@@ -55,6 +55,14 @@ pub(super) struct EdgeSteps {
     low: u32,
 }
 
+/// What an edge function gains from a pixel's first point to each of [`TOGETHER`] samples: `65536 * high + low`.
+#[derive(Clone, Copy)]
+pub(super) struct EdgeGains<S: Simd> {
+    simd: S,
+    high: i32x16<S>,
+    low: i32x16<S>,
+}
+
 /// The places of [`TOGETHER`] samples: a column and a row of the lattice for each.
 #[derive(Clone, Copy)]
 pub(super) struct SampleBlock<S: Simd> {
@@ -90,6 +98,11 @@ impl SampleLanes {
     /// The bits of all samples.
     pub(super) fn all(&self) -> u64 {
         u64::MAX >> (MOST - self.count)
+    }
+
+    /// Whether all pixels have their samples in the same places.
+    pub(super) fn are_same(&self) -> bool {
+        self.pixels.is_empty()
     }
 
     /// Goes to the pixel in this column and row of the frame.
@@ -178,25 +191,35 @@ impl<S: Simd> SampleBlock<S> {
         }
     }
 
-    /// The samples at which an edge function is not below zero that has this value at the pixel's first point.
+    /// What an edge function with these steps gains from the pixel's first point to each sample.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "clamped, or sixteen bits")]
-    pub(super) fn inside(self, value: i64, steps: EdgeSteps) -> mask32x16<S> {
-        // Beyond that it alone decides, whatever the steps add.
-        const MOST: i64 = 1 << 30;
-        let sums = |steps: u32, value: i32| {
-            let steps: i16x32<S> = u32x16::splat(self.simd, steps).bitcast();
-            self.places.pairwise_dot_product(steps) + i32x16::splat(self.simd, value)
-        };
-        let high = sums(steps.high, (value >> 16).clamp(-MOST, MOST) as i32);
-        let low = sums(steps.low, (value & 0xFFFF) as i32);
-        (high + (low >> 16)).simd_ge(i32x16::splat(self.simd, 0))
+    pub(super) fn gains(self, steps: EdgeSteps) -> EdgeGains<S> {
+        let both = |steps: u32| u32x16::splat(self.simd, steps).bitcast::<i16x32<S>>();
+        EdgeGains {
+            simd: self.simd,
+            high: self.places.pairwise_dot_product(both(steps.high)),
+            low: self.places.pairwise_dot_product(both(steps.low)),
+        }
     }
 
     /// The rows of the lattice that the samples lie in.
     #[inline(always)]
     pub(super) fn rows(self) -> i32x16<S> {
         self.places.bitcast::<i32x16<S>>() >> 16
+    }
+}
+
+impl<S: Simd> EdgeGains<S> {
+    /// The samples at which the edge function is not below zero that has this value at the pixel's first point.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped, or sixteen bits")]
+    pub(super) fn inside(self, value: i64) -> mask32x16<S> {
+        // Beyond that it alone decides, whatever the steps add.
+        const MOST: i64 = 1 << 30;
+        let number = |part: i64| i32x16::splat(self.simd, part as i32);
+        let high = self.high + number((value >> 16).clamp(-MOST, MOST));
+        let low = self.low + number(value & 0xFFFF);
+        (high + (low >> 16)).simd_ge(number(0))
     }
 }
 
@@ -213,7 +236,7 @@ mod tests {
     fn found<S: Simd>(simd: S, lanes: &SampleLanes, value: i64, steps: EdgeSteps) -> (u64, Vec<i32>) {
         let (mut inside, mut rows) = (0, Vec::new());
         for (first, samples) in lanes.blocks(simd) {
-            inside |= samples.inside(value, steps).to_bitmask() << first;
+            inside |= samples.gains(steps).inside(value).to_bitmask() << first;
             rows.extend(samples.rows().to_array());
         }
         rows.truncate(lanes.count);

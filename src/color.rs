@@ -12,6 +12,7 @@ mod resolve;
 mod resolver;
 mod sample_mean;
 mod spaces;
+mod sum_bounds;
 mod value_spread;
 mod weighted;
 
@@ -28,7 +29,8 @@ pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
 pub use spaces::ColorSpace;
-pub(crate) use value_spread::{ValueLimits, ValueSpread};
+pub(crate) use sum_bounds::{SumBounds, sums_at};
+pub(crate) use value_spread::{SpreadLimits, ValueLimits, ValueSpread};
 pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

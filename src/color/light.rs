@@ -86,6 +86,20 @@ impl Light {
         Self([light(r), light(g), light(b), (f64::from(alpha) * one).round() as u64])
     }
 
+    /// Red, green and blue of so many opaque samples, in parts of [`ONE_LIGHT`].
+    #[inline]
+    pub(super) fn of_opaque(sums: [u64; 3], count: u32) -> Self {
+        let opaque = u64::from(Premultiplied16::ONE);
+        let [r, g, b] = sums.map(|sum| sum * opaque);
+        Self([r, g, b, u64::from(count) * opaque])
+    }
+
+    /// Red of opaque samples, in parts of all light.
+    #[cfg(test)]
+    pub(crate) fn opaque_red(self) -> u64 {
+        self.0[0] / u64::from(Premultiplied16::ONE)
+    }
+
     /// So many times the same.
     #[inline]
     #[must_use]
@@ -125,6 +139,12 @@ impl LightResolver {
             return self.opaque_pixel([r, g, b].map(|sum| sum / u64::from(Premultiplied16::ONE)));
         }
         self.translucent([r, g, b], alphas)
+    }
+
+    /// The light of each stored channel of an opaque colour, in parts of [`ONE_LIGHT`].
+    #[inline]
+    pub(super) fn of_stored(&self) -> &'static [u32; 1 << 16] {
+        self.light
     }
 
     /// The light of each byte of an opaque colour.
@@ -189,10 +209,11 @@ impl LightResolver {
     /// The light of opaque samples.
     #[inline]
     pub fn opaque_light(&self, samples: &[Premultiplied16]) -> Light {
-        let [r, g, b] = self
-            .opaque_sums(samples)
-            .map(|sum| sum * u64::from(Premultiplied16::ONE));
-        Light([r, g, b, samples.len() as u64 * u64::from(Premultiplied16::ONE)])
+        // A pixel has few samples.
+        Light::of_opaque(
+            self.opaque_sums(samples),
+            u32::try_from(samples.len()).unwrap_or(u32::MAX),
+        )
     }
 
     /// The light of opaque samples in parts of [`ONE_LIGHT`].

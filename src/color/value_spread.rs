@@ -5,7 +5,7 @@
 //!          |          .'
 //!          |       .·'              f(m) + max f'' / 2 · mean square of their distance from m
 //!          |  ..·'
-//!          +------m------ value  which is no more than f(m + that / f'(m)).
+//!          +------m------ value  which is no more than f(m + that / f'(m)); with min f'', at least a little more than f(m).
 //! ```
 //!
 //! Samples are rounded by half a unit, which moves both ends by as much; where colours are painted over them, and the outcome is
@@ -35,6 +35,8 @@ const OFFSET: f64 = 0.055 / 1.055;
 const STEEPEST: f64 = SLOPE / (BEND * SLOPE + OFFSET);
 /// The curve bends so little that it does not matter where on it values lie, in units.
 const LITTLE: f64 = 0.05;
+/// It bends so little that it rarely matters.
+const MUCH: f64 = 4.0;
 
 /// What the curve is off where it bends and light is rounded to whole numbers, even in the dark.
 const OF_LIGHT: f64 = 0.1;
@@ -49,9 +51,7 @@ const SLACK: f64 = 1e-3;
 pub(crate) struct ValueSpread<S: Simd> {
     /// In units of [`Premultiplied16`].
     pub(crate) mean: f64x8<S>,
-    /// No two values are farther apart.
-    pub(crate) reach: f64,
-    pub(crate) limits: ValueLimits,
+    pub(crate) limits: SpreadLimits,
 }
 
 /// What is known of the values that samples store, in units of [`Premultiplied16`].
@@ -63,59 +63,134 @@ pub(crate) struct ValueLimits {
     pub(crate) rounded: f64,
 }
 
+/// What is known of the values of one pixel, of which no two are farther apart than some reach.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpreadLimits {
+    /// No two values are farther apart.
+    pub(crate) reach: f64,
+    rounded: f64,
+    /// How far rounding may move the value whose light is the mean light, and how far from there any value may lie.
+    off: f64,
+    widest: f64,
+    /// Between these means no value is clamped.
+    unclamped: [f64; 2],
+    /// So near to the bend some values may lie on its other side.
+    near_bend: f64,
+    /// What the curve adds at most, wherever on it values lie and however they are spread: half of its second derivative, at its
+    /// greatest, over the first.
+    most_bent: f64,
+}
+
+/// Between what a mean lies, in units of [`Premultiplied16`], and a bit for each of eight pixels of which that is certain.
+pub(crate) type Ends<S> = ([f64x8<S>; 2], u64);
+
 impl ValueLimits {
     /// Of values that are rounded once.
     pub(crate) const STORED: Self = Self {
         range: [0.0, ONE],
         rounded: 0.5,
     };
+
+    /// Of the values of one pixel, where no two are farther apart than `reach`.
+    pub(crate) fn within(self, reach: f64) -> SpreadLimits {
+        let Self {
+            range: [least, most],
+            rounded,
+        } = self;
+        let off = rounded + OF_LIGHT;
+        let widest = reach + off;
+        SpreadLimits {
+            reach,
+            rounded,
+            off,
+            widest,
+            unclamped: [least + (reach - SLACK), most + SLACK - reach],
+            near_bend: reach + 2.0 * off,
+            most_bent: reach * reach / 4.0 * (STEEPEST * (widest * STEEPEST + 1.0)) * (1.4 / 2.0),
+        }
+    }
 }
 
 impl<S: Simd> ValueSpread<S> {
-    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` are the mean
-    /// squares of how far the values are from their mean.
+    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` says the mean
+    /// squares of how far the values are from their mean, where these matter.
     #[inline(always)]
-    pub(crate) fn bytes_of_light(self, simd: S, squares: f64x8<S>) -> (u64x8<S>, u64) {
-        let Self { mean, reach, limits } = self;
-        let off = limits.rounded + OF_LIGHT;
-        let widest = reach + off;
-        // Half of the second derivative, at its greatest, over the first.
-        let most = reach * reach / 4.0 * (STEEPEST * (widest * STEEPEST + 1.0)) * (1.4 / 2.0);
-        let bent = if most < LITTLE {
-            f64x8::splat(simd, most)
-        } else {
-            let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
-            let step = f64x8::splat(simd, SLOPE) / base;
-            squares * (step * (step * widest + 1.0)) * (1.4 / 2.0)
-        };
-        let is_smooth = (mean - BEND).abs().simd_gt(f64x8::splat(simd, reach + 2.0 * off));
-        let (bytes, certain) = self.between(simd, mean - off, mean + off + bent);
-        (bytes, certain & is_smooth.to_bitmask())
+    pub(crate) fn bytes_of_light(self, simd: S, squares: impl FnOnce() -> f64x8<S>) -> (u64x8<S>, u64) {
+        let SpreadLimits { off, most_bent, .. } = self.limits;
+        if most_bent < MUCH {
+            let (bytes, is_one) = bytes_between(simd, [self.mean - off, self.mean + (off + most_bent)]);
+            // Nearly always. Without a division it takes half of the time.
+            if is_one == u64::from(u8::MAX) {
+                return (bytes, self.is_unclamped(simd) & self.is_smooth(simd));
+            }
+        }
+        let (ends, certain) = self.ends_of_light(simd, squares());
+        let (bytes, is_one) = bytes_between(simd, ends);
+        (bytes, certain & is_one)
     }
 
     /// The bytes of the mean of what is stored, rounded to nearest, and a bit for each pixel of which that is certain.
     #[inline(always)]
     pub(crate) fn bytes(self, simd: S) -> (u64x8<S>, u64) {
-        let off = self.limits.rounded + OF_PLANES;
-        self.between(simd, self.mean - off, self.mean + off)
+        let (ends, certain) = self.ends(simd);
+        let (bytes, is_one) = bytes_between(simd, ends);
+        (bytes, certain & is_one)
     }
 
-    /// The bytes that lie nearest to means from `least` to `most`, and where that is one and no value is clamped.
+    /// The ends of the value whose light is the mean light; `squares` are the mean squares of how far the values are from their mean.
     #[inline(always)]
-    fn between(self, simd: S, least: f64x8<S>, most: f64x8<S>) -> (u64x8<S>, u64) {
-        // Where whole numbers stand in the lower bits.
-        const WHOLE: f64 = (1_u64 << 52) as f64;
-        let Self { mean, reach, limits } = self;
-        let [least_value, most_value] = limits.range;
-        // Half a byte more, so that cutting off rounds.
-        let low = ((least + 128.0) * (1.0 / 256.0)).floor();
-        let high = ((most + 128.0) * (1.0 / 256.0)).floor();
-        let is_one = low.simd_eq(high);
-        let in_range = mean.simd_gt(f64x8::splat(simd, least_value + (reach - SLACK)))
-            & mean.simd_lt(f64x8::splat(simd, most_value + SLACK - reach));
-        let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
-        (bytes, (is_one & in_range).to_bitmask())
+    pub(crate) fn ends_of_light(self, simd: S, squares: f64x8<S>) -> Ends<S> {
+        let Self { mean, limits } = self;
+        let zero = f64x8::splat(simd, 0.0);
+        let (least, most) = if limits.most_bent < LITTLE {
+            (zero, f64x8::splat(simd, limits.most_bent))
+        } else {
+            let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
+            let step = f64x8::splat(simd, SLOPE) / base;
+            // The second derivative is the power 0.4: of `1 - x` that is at least `1 - x`, and of `1 + x` at most `1 + 0.4 x`.
+            let (x, bent) = (step * limits.widest, squares * step * (1.4 / 2.0));
+            let least = (bent - bent * x).max(zero) * (f64x8::splat(simd, 1.0) - step * bent).max(zero);
+            // Below, the curve is a straight line.
+            let is_curved = mean.simd_gt(f64x8::splat(simd, BEND));
+            (is_curved.select(least, zero), bent + bent * x * 0.4)
+        };
+        let certain = self.is_unclamped(simd) & self.is_smooth(simd);
+        ([mean - limits.off + least, mean + limits.off + most], certain)
     }
+
+    /// The ends of the mean of what is stored.
+    #[inline(always)]
+    pub(crate) fn ends(self, simd: S) -> Ends<S> {
+        let off = self.limits.rounded + OF_PLANES;
+        ([self.mean - off, self.mean + off], self.is_unclamped(simd))
+    }
+
+    /// A bit for each pixel of which no value is clamped.
+    #[inline(always)]
+    fn is_unclamped(self, simd: S) -> u64 {
+        let [least, most] = self.limits.unclamped;
+        let is_unclamped = self.mean.simd_gt(f64x8::splat(simd, least)) & self.mean.simd_lt(f64x8::splat(simd, most));
+        is_unclamped.to_bitmask()
+    }
+
+    /// A bit for each pixel none of whose values lies where the curve has its kink.
+    #[inline(always)]
+    fn is_smooth(self, simd: S) -> u64 {
+        let near = f64x8::splat(simd, self.limits.near_bend);
+        (self.mean - BEND).abs().simd_gt(near).to_bitmask()
+    }
+}
+
+/// The bytes that lie nearest to values between these ends, and a bit for each pixel of which that is one.
+#[inline(always)]
+fn bytes_between<S: Simd>(simd: S, [least, most]: [f64x8<S>; 2]) -> (u64x8<S>, u64) {
+    // Where whole numbers stand in the lower bits.
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    // Half a byte more, so that cutting off rounds.
+    let low = ((least + 128.0) * (1.0 / 256.0)).floor();
+    let high = ((most + 128.0) * (1.0 / 256.0)).floor();
+    let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
+    (bytes, low.simd_eq(high).to_bitmask())
 }
 
 #[cfg(test)]
@@ -168,8 +243,8 @@ mod tests {
             for (name, level) in simd::tested() {
                 let found = dispatch!(level, simd => {
                     let number = |value| f64x8::splat(simd, value);
-                    let spread = ValueSpread { mean: number(mean), reach, limits: ValueLimits::STORED };
-                    let light = spread.bytes_of_light(simd, number(squares));
+                    let spread = ValueSpread { mean: number(mean), limits: ValueLimits::STORED.within(reach) };
+                    let light = spread.bytes_of_light(simd, || number(squares));
                     [light, spread.bytes(simd)].map(|(bytes, mask)| (bytes.to_array(), mask))
                 });
                 for (i, ((bytes, mask), expected)) in found.into_iter().zip(expected).enumerate() {

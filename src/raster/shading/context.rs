@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::resolve::SizedFilter;
+use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::{SampleRate, ShadingRate};
@@ -64,6 +65,16 @@ pub(crate) struct BoundedPixels<'p> {
 }
 
 /// Some samples of some pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedParts<'p> {
+    pub(crate) pixels: Pixels<'p>,
+    /// What the places of the samples of each add up to.
+    pub(crate) sums: &'p [PlaceSums],
+    /// Flat colours that are painted over them, in that order.
+    pub(crate) tints: &'p [Premultiplied16],
+}
+
+/// Some samples of some pixels, by their numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MaskedPixels<'p> {
     pub(crate) pixels: Pixels<'p>,
@@ -149,6 +160,17 @@ impl<'p> PlacedPixels<'p> {
         };
         let pixels = self.pixels.part(range);
         Self { pixels, inside, ..self }
+    }
+}
+
+impl PlacedParts<'_> {
+    /// Some that follow each other in the list.
+    pub(crate) fn part(self, range: Range<usize>) -> Self {
+        Self {
+            pixels: self.pixels.part(range.clone()),
+            sums: &self.sums[range],
+            ..self
+        }
     }
 }
 

@@ -11,12 +11,14 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, u64x8};
 use glam::{DAffine2, DVec2};
 
-use crate::color::{Premultiplied16, Ramp, Resolver, SampleMean, Stretch};
+use crate::color::{Premultiplied16, Ramp, Resolver, SampleMean, Stretch, SumBounds};
 use crate::geometry::PlacedShape;
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::sampling::positions::Position;
-use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{
+    BoundedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
+};
 use crate::raster::shading::gradient_means::LineColors;
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample, low_word, places_of};
@@ -308,6 +310,14 @@ impl Shade for GradientShader<'_> {
     ) -> bool {
         self.line_colors()
             .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
+    }
+
+    fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+        let colors = self.line_colors();
+        if let Some(colors) = colors {
+            colors.part_bounds(parts, mean, bounds);
+        }
+        colors.is_some()
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

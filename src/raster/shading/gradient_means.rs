@@ -9,9 +9,9 @@
 
 use std::ops::Range;
 
-use crate::color::{Ramp, SampleMean, Spread};
+use crate::color::{Ramp, SampleMean, Spread, SumBounds};
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
+use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedParts, PlacedPixels};
 use crate::raster::shading::kernel::first_sample;
 use crate::raster::shading::kind::Shade;
 use crate::raster::shading::plane_means::PlaneColors;
@@ -77,6 +77,15 @@ impl LineColors<'_> {
             }
         });
         true
+    }
+
+    /// As [`PlaneColors::part_bounds`], of all stretches.
+    pub(super) fn part_bounds(self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) {
+        let shade = self.shade;
+        self.each_piece(parts.pixels, |range, planes| {
+            let planes = planes.unwrap_or(&NOWHERE);
+            PlaneColors { planes, shade }.part_bounds(parts.part(range.clone()), mean, &mut bounds[range]);
+        });
     }
 
     /// Calls `done` with pixels that follow each other in the list and all of whose samples lie on one piece, and with its planes;

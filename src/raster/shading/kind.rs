@@ -1,11 +1,11 @@
 //! What every kind of paint answers. Only the colours of samples must be told; a paint that knows a shorter way to whole
 //! pixels or to sums of samples tells that too.
 
-use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
+use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean, SumBounds};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{
-    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
 };
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
@@ -81,6 +81,12 @@ pub(super) trait Shade {
     /// Those of the pixels, with what is painted over them, for which it does not matter where exactly their samples lie; the numbers of
     /// all others are added to `open`. `false` where there is no way to know. The triangle must be opaque.
     fn bounded_pixels(&self, _: BoundedPixels<'_>, _: &SampleMean, _: &mut [u32], _: &mut Vec<usize>) -> bool {
+        false
+    }
+
+    /// Between what the samples of parts of pixels add up to with what is painted over them, where that is told apart by little more
+    /// than rounding; whether it is. The triangle must be opaque.
+    fn part_bounds(&self, _: PlacedParts<'_>, _: &SampleMean, _: &mut [SumBounds]) -> bool {
         false
     }
 

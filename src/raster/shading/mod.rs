@@ -21,17 +21,18 @@ mod kind;
 pub(in crate::raster) mod once;
 mod pattern;
 mod plane_means;
+mod plane_parts;
 mod solid;
 pub(in crate::raster) mod sources;
 mod texture;
 mod vertex;
 mod vertex_kernel;
 
-use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
+use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean, SumBounds};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{
-    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
 };
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
@@ -263,6 +264,12 @@ impl<'a> Shader<'a> {
     ) -> bool {
         self.centres.is_none()
             && ask!(&self.any, AnyShader, shader => shader.bounded_pixels(pixels, mean, values, open))
+    }
+
+    /// Between what the samples of parts of pixels add up to with what is painted over them, where that is told apart by little more
+    /// than rounding; whether it is. The triangle must be opaque.
+    pub(crate) fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+        self.centres.is_none() && ask!(&self.any, AnyShader, shader => shader.part_bounds(parts, mean, bounds))
     }
 
     /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.

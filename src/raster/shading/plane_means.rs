@@ -12,7 +12,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f64x8, u64x8};
 
-use crate::color::{Premultiplied16, SampleMean, ValueLimits, ValueSpread};
+use crate::color::{Premultiplied16, SampleMean, SpreadLimits, ValueLimits, ValueSpread};
 use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
@@ -27,11 +27,11 @@ const FEW: usize = 16;
 const MANY: usize = SampleRate::MAX as usize;
 
 /// How the samples of [`LANES`] pixels are spread, in points of the lattice.
-struct PlaceSpreads {
+pub(super) struct PlaceSpreads {
     /// Of columns and of rows.
-    mean: [[f64; LANES]; 2],
+    pub(super) mean: [[f64; LANES]; 2],
     /// The mean squares of how far columns and rows are from there, and between these the mean of their products.
-    squares: [[f64; LANES]; 3],
+    pub(super) squares: [[f64; LANES]; 3],
 }
 
 /// Opaque colours in planes.
@@ -44,10 +44,10 @@ pub(super) struct PlaneColors<'a> {
 }
 
 /// Planes through what samples show once flat colours are painted over them.
-struct TintedPlanes {
+pub(super) struct TintedPlanes {
     /// In units of [`Premultiplied16`].
-    planes: Planes<3>,
-    limits: [ValueLimits; 3],
+    pub(super) planes: Planes<3>,
+    pub(super) limits: [ValueLimits; 3],
 }
 
 impl PlaneColors<'_> {
@@ -89,6 +89,7 @@ fn means_with<S: Simd>(
     let is_linear = matches!(mean, SampleMean::Linear(_));
     let planes = colors.planes;
     let shown = TintedPlanes::new(planes, placed.tints);
+    let limits = shown.spread_limits(side);
     let mut spread = PlaceSpreads::of_all(placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
         let at = block * LANES;
@@ -107,17 +108,17 @@ fn means_with<S: Simd>(
         let down = rows * side + (first[1] - planes.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
         let (pixels, certain) = shown.pixels(
             [right, down],
-            side,
+            &limits,
             #[inline(always)]
             |values, [dx, dy]| {
                 if !is_linear {
                     return values.bytes(simd);
                 }
-                let [xx, xy, yy] = &spread.squares;
-                let squares = f64x8::simd_from(simd, *xx) * (dx * dx)
-                    + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
-                    + f64x8::simd_from(simd, *yy) * (dy * dy);
-                values.bytes_of_light(simd, squares)
+                values.bytes_of_light(
+                    simd,
+                    #[inline(always)]
+                    || spread.squares_along(simd, [dx, dy]),
+                )
             },
         );
         let pixels = pixels.to_array();
@@ -142,6 +143,7 @@ fn bounded_with<S: Simd>(
     (values, open): (&mut [u32], &mut Vec<usize>),
 ) {
     let (first, side) = (first_sample(grid), f64::from(grid.side));
+    let limits = shown.spread_limits(side);
     let from_pivot = [0, 1].map(|axis| first[axis] + middle - shown.planes.pivot[axis]);
     let blocks = values.chunks_mut(LANES).zip(places.chunks(LANES));
     for (block, (values, places)) in blocks.enumerate() {
@@ -149,13 +151,17 @@ fn bounded_with<S: Simd>(
         let middle = [columns * side + from_pivot[0], rows * side + from_pivot[1]];
         let (pixels, certain) = shown.pixels(
             middle,
-            side,
+            &limits,
             #[inline(always)]
             |values, _| {
                 if is_linear {
                     // No values are spread wider than when half of them lie at either end.
-                    let squares = f64x8::splat(simd, values.reach * values.reach / 4.0);
-                    values.bytes_of_light(simd, squares)
+                    let squares = f64x8::splat(simd, values.limits.reach * values.limits.reach / 4.0);
+                    values.bytes_of_light(
+                        simd,
+                        #[inline(always)]
+                        || squares,
+                    )
                 } else {
                     values.bytes(simd)
                 }
@@ -192,7 +198,7 @@ fn one_by_one<const N: usize>(shade: &dyn Shade, placed: PlacedPixels<'_>, i: us
 impl TintedPlanes {
     /// Source-over of one after the other keeps planes plane. Every one rounds what it leaves of what was rounded before it.
     #[inline(always)]
-    fn new(planes: &Planes<3>, tints: &[Premultiplied16]) -> Self {
+    pub(super) fn new(planes: &Planes<3>, tints: &[Premultiplied16]) -> Self {
         let (mut planes, mut limits) = (*planes, [ValueLimits::STORED; 3]);
         for tint in tints {
             let left = 1.0 - f64::from(tint.0[3]) / ONE;
@@ -228,39 +234,68 @@ impl TintedPlanes {
     fn pixels<S: Simd>(
         &self,
         [right, down]: [f64x8<S>; 2],
-        side: f64,
+        limits: &[SpreadLimits; 3],
         bytes: impl Fn(ValueSpread<S>, [f64; 2]) -> (u64x8<S>, u64),
     ) -> (u64x8<S>, u64) {
-        let Self { planes, limits } = self;
         let (mut pixels, mut certain) = (u64x8::splat(right.simd, 0xFF), u64::MAX);
-        for (k, limits) in limits.iter().enumerate() {
-            let (dx, dy) = (planes.dx[k], planes.dy[k]);
-            let values = ValueSpread {
-                // In the order of `Planes::at`.
-                mean: down * dy + planes.at_pivot[k] + right * dx,
-                reach: (dx.abs() + dy.abs()) * (side - 1.0),
-                limits: *limits,
-            };
-            let (found, of_channel) = bytes(values, [dx, dy]);
+        for k in 0..3 {
+            let (found, of_channel) = bytes(
+                self.spread(k, [right, down], limits),
+                [self.planes.dx[k], self.planes.dy[k]],
+            );
             certain &= of_channel;
             pixels = pixels << 8 | found;
         }
         (pixels, certain)
     }
+
+    /// What is known of the channels of a pixel of a lattice with so many points along a side.
+    pub(super) fn spread_limits(&self, side: f64) -> [SpreadLimits; 3] {
+        let Self { planes, limits } = self;
+        [0, 1, 2].map(|k| limits[k].within((planes.dx[k].abs() + planes.dy[k].abs()) * (side - 1.0)))
+    }
+
+    /// A channel of pixels whose samples have these means, from the pivot.
+    #[inline(always)]
+    pub(super) fn spread<S: Simd>(
+        &self,
+        k: usize,
+        [right, down]: [f64x8<S>; 2],
+        limits: &[SpreadLimits; 3],
+    ) -> ValueSpread<S> {
+        let planes = &self.planes;
+        ValueSpread {
+            // In the order of `Planes::at`.
+            mean: down * planes.dy[k] + planes.at_pivot[k] + right * planes.dx[k],
+            limits: limits[k],
+        }
+    }
 }
 
 impl PlaceSpreads {
+    pub(super) const NONE: Self = Self {
+        mean: [[0.0; LANES]; 2],
+        squares: [[0.0; LANES]; 3],
+    };
+
     /// Of samples that lie there in every pixel.
     fn of_all(places: &[Position]) -> Self {
-        let mut spread = Self {
-            mean: [[0.0; LANES]; 2],
-            squares: [[0.0; LANES]; 3],
-        };
+        let mut spread = Self::NONE;
         spread.set_mean(0, places);
         spread.set_squares(0, places);
         spread.mean = spread.mean.map(|[first, ..]| [first; LANES]);
         spread.squares = spread.squares.map(|[first, ..]| [first; LANES]);
         spread
+    }
+
+    /// Of values that change so much from one point of the lattice to the next, across and down, the mean squares of how far they are
+    /// from their mean.
+    #[inline(always)]
+    pub(super) fn squares_along<S: Simd>(&self, simd: S, [dx, dy]: [f64; 2]) -> f64x8<S> {
+        let [xx, xy, yy] = &self.squares;
+        f64x8::simd_from(simd, *xx) * (dx * dx)
+            + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
+            + f64x8::simd_from(simd, *yy) * (dy * dy)
     }
 
     /// In the pixel of a lane.
@@ -299,10 +334,12 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
-    use crate::color::ResolveSpace;
+    use crate::color::{Light, ResolveSpace, SumBounds};
     use crate::geometry::edge::doubled_area;
     use crate::geometry::subpixel::GridPoint;
+    use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
     use crate::raster::sampling::positions::{SamplePositions, lattice};
+    use crate::raster::shading::context::PlacedParts;
     use crate::raster::shading::vertex_kernel::point_kernel;
     use crate::raster::{SamplePattern, Seed};
     use crate::texture::SampleGrid;
@@ -405,6 +442,11 @@ mod tests {
 
         /// Pixel `i`, sample by sample.
         fn one_by_one(&self, i: usize, mean: &SampleMean) -> u32 {
+            mean.pixel(&self.colors_of(i))
+        }
+
+        /// The colours of the samples of pixel `i`.
+        fn colors_of(&self, i: usize) -> Vec<Premultiplied16> {
             let side = u16::try_from(self.grid.side).expect("at most 256");
             let inside = self.placed().inside(i).iter();
             let points: Vec<[u16; 2]> = inside
@@ -417,7 +459,7 @@ mod tests {
                     *color = tint.over(*color, Rules::Standard);
                 }
             }
-            mean.pixel(&colors)
+            colors
         }
     }
 
@@ -451,6 +493,62 @@ mod tests {
         })
         .budget_ms(800);
         assert!(pixels_met > 0, "something was compared");
+    }
+
+    #[test]
+    fn samples_of_parts_add_up_to_what_lies_in_their_bounds() {
+        let (mut known, mut all) = (0, 0);
+        arbtest::arbtest(|u| {
+            let Some(case) = Case::new(u)? else {
+                return Ok(());
+            };
+            let placed = case.placed();
+            let shade = OfPlanes(&case.planes);
+            let masks: Vec<u64> = (0..case.places.len())
+                .map(|_| Ok(u.arbitrary::<u64>()? >> 64_usize.saturating_sub(placed.count)))
+                .collect::<Result<_>>()?;
+            let sums: Vec<PlaceSums> = (0..masks.len())
+                .map(|i| PlaceSumsByMask::new(placed.inside(i)).of(0, masks[i]))
+                .collect();
+            let parts = PlacedParts {
+                pixels: placed.pixels,
+                sums: &sums,
+                tints: &case.tints,
+            };
+            for space in ResolveSpace::ALL {
+                let mean = SampleMean::new(space, case.rate.samples(), Rules::Standard);
+                let mut bounds = vec![SumBounds::default(); masks.len()];
+                case.colors(&shade).part_bounds(parts, &mean, &mut bounds);
+                for (i, bounds) in bounds.iter().enumerate() {
+                    let colors = case.colors_of(i);
+                    let named: Vec<_> = (0..64)
+                        .zip(colors)
+                        .filter(|(bit, _)| masks[i] >> bit & 1 == 1)
+                        .collect();
+                    let light = |channel: u16| match mean {
+                        SampleMean::Stored(_) => u64::from(channel),
+                        SampleMean::Linear(_) => {
+                            Light::new(Premultiplied16([channel, 0, 0, Premultiplied16::ONE])).opaque_red()
+                        }
+                    };
+                    assert_eq!(bounds.count, masks[i].count_ones(), "the samples of part {i}");
+                    for k in 0..3 {
+                        let sum: u64 = named.iter().map(|(_, color)| light(color.0[k])).sum();
+                        assert!(
+                            (bounds.least[k]..=bounds.most[k]).contains(&sum),
+                            "{sum}, {bounds:?}, {:?}, {space:?}: {:?}",
+                            case.pattern,
+                            case.planes
+                        );
+                    }
+                    all += 1;
+                    known += usize::from(*bounds != SumBounds::unknown(bounds.count, &mean));
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(800);
+        assert!(known * 5 > all && all > 200, "{known} of {all} are known");
     }
 
     #[test]

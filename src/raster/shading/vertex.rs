@@ -2,12 +2,12 @@
 
 use fearless_simd::{Level, dispatch};
 
-use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
+use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean, SumBounds};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{
-    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample,
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
 };
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{ONE, first_sample};
@@ -135,6 +135,14 @@ impl Shade for VertexShader {
     ) -> bool {
         self.plane_colors()
             .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
+    }
+
+    fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+        let colors = self.plane_colors();
+        if let Some(colors) = colors {
+            colors.part_bounds(parts, mean, bounds);
+        }
+        colors.is_some()
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

@@ -7,13 +7,16 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::{Light, Premultiplied16, SampleMean};
+use crate::color::{Light, Premultiplied16, SampleMean, SumBounds};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
+use crate::raster::paint::visibility::bounded_parts::BoundedParts;
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
+use crate::raster::paint::visibility::shading_queue::Fragment;
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
+use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext};
+use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext};
 use crate::simd;
 use crate::texture::SampleGrid;
 
@@ -28,14 +31,33 @@ pub(super) struct BySamples {
     /// The light of surfaces.
     pub(super) lights: Vec<Light>,
     pub(super) known: KnownPixels,
+    pub(super) parts: BoundedParts,
+    /// Fragments of pixels that are open.
+    pub(super) open: Vec<Fragment>,
     pub(super) shades: SampleShades,
+}
+
+/// Where the samples of a tile lie, and how they are averaged.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TileSamples<'s> {
+    pub(super) positions: &'s SamplePositions,
+    pub(super) mean: &'s SampleMean,
+    pub(super) grid: SampleGrid,
+}
+
+/// The pixels of a tile that several surfaces share: their places, and what their samples add up to as far as it is known.
+#[derive(Debug)]
+pub(super) struct SharedPixels<'q> {
+    pub(super) places: &'q [[u16; 2]],
+    pub(super) sums: &'q mut [[u32; 4]],
+    pub(super) lights: &'q mut [Light],
 }
 
 /// The samples of some fragments of a primitive.
 #[derive(Debug, Default)]
 pub(super) struct SampleShades {
-    pub(super) points: Vec<[u16; 2]>,
-    pub(super) colors: Vec<Premultiplied16>,
+    points: Vec<[u16; 2]>,
+    colors: Vec<Premultiplied16>,
     /// Those of a paint above.
     above: Vec<Premultiplied16>,
     /// Pixels of which all samples are shaded, and what becomes of them.
@@ -47,6 +69,9 @@ pub(super) struct SampleShades {
     inside: Vec<Position>,
     random: Vec<u64>,
     memory: Vec<Position>,
+    /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
+    by_mask: PlaceSumsByMask,
+    sums: Vec<PlaceSums>,
 }
 
 impl BySamples {
@@ -63,7 +88,10 @@ impl BySamples {
             mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
             known: KnownPixels::default(),
+            parts: BoundedParts::default(),
+            open: Vec::new(),
             shades: SampleShades {
+                by_mask: PlaceSumsByMask::new(&inside),
                 inside,
                 ..SampleShades::default()
             },
@@ -79,13 +107,7 @@ impl BySamples {
 impl SampleShades {
     /// Adds the samples of a pixel that a fragment of a tile holds some of; `grid` counts the tile's.
     #[inline]
-    pub(super) fn gather(
-        &mut self,
-        place: [u16; 2],
-        (first, mask): (u16, u64),
-        positions: &SamplePositions,
-        grid: SampleGrid,
-    ) {
+    fn gather(&mut self, place: [u16; 2], (first, mask): (u16, u64), positions: &SamplePositions, grid: SampleGrid) {
         let corner = first_point(place, grid);
         let of_pixel = positions.of_pixel(pixel_of(place, grid), &mut self.memory);
         let mut rest = mask;
@@ -96,8 +118,86 @@ impl SampleShades {
         }
     }
 
+    /// Shades the samples of fragments and adds them up, each to its pixel. How many samples.
+    pub(super) fn add_fragments(
+        &mut self,
+        shader: &SurfaceShader<'_>,
+        samples: TileSamples<'_>,
+        fragments: &[Fragment],
+        pixels: &mut SharedPixels<'_>,
+    ) -> usize {
+        self.points.clear();
+        for Fragment { first, pixel, mask } in fragments {
+            let place = pixels.places[*pixel as usize];
+            self.gather(place, (*first, *mask), samples.positions, samples.grid);
+        }
+        self.shade(shader, samples.grid);
+        let mut colors = &self.colors[..self.points.len()];
+        for Fragment { pixel, mask, .. } in fragments {
+            let (of_fragment, others) = colors.split_at(mask.count_ones() as usize);
+            colors = others;
+            match samples.mean {
+                SampleMean::Stored(_) => {
+                    let found = Premultiplied16::sums(of_fragment);
+                    for (sum, channel) in pixels.sums[*pixel as usize].iter_mut().zip(found) {
+                        *sum += channel;
+                    }
+                }
+                SampleMean::Linear(resolver) => pixels.lights[*pixel as usize] += resolver.opaque_light(of_fragment),
+            }
+        }
+        self.points.len()
+    }
+
+    /// Between what the samples of parts of pixels add up to, each at a place of the tile and with a mask, where there is a way to know
+    /// without shading them; whether there is one.
+    pub(super) fn bound(
+        &mut self,
+        shader: &SurfaceShader<'_>,
+        TileSamples { positions, mean, grid }: TileSamples<'_>,
+        (places, masks): (impl Iterator<Item = [u16; 2]>, &[(u16, u64)]),
+        bounds: &mut [SumBounds],
+    ) -> bool {
+        let Some((lowest, tints)) = shader.tinted() else {
+            return false;
+        };
+        self.whole.clear();
+        self.whole.extend(places);
+        self.sums.clear();
+        if positions.are_same() {
+            let sums = masks
+                .iter()
+                .map(|(first, mask)| self.by_mask.of(usize::from(*first), *mask));
+            self.sums.extend(sums);
+        } else {
+            self.place(positions, grid);
+            let (sums, inside) = (&mut self.sums, self.inside.chunks_exact(positions.count()));
+            dispatch!(simd::level(), simd => add_sums(simd, inside.zip(masks), sums));
+        }
+        let parts = PlacedParts {
+            pixels: Pixels {
+                grid,
+                places: &self.whole,
+            },
+            sums: &self.sums,
+            tints,
+        };
+        lowest.part_bounds(parts, mean, bounds)
+    }
+
+    /// Finds where the samples of the pixels of `whole` lie.
+    fn place(&mut self, positions: &SamplePositions, grid: SampleGrid) {
+        if !positions.are_same() {
+            self.random.clear();
+            self.random
+                .extend(self.whole.iter().map(|place| positions.random(pixel_of(*place, grid))));
+            self.inside.clear();
+            positions.add(&self.random, &mut self.inside);
+        }
+    }
+
     /// Shades the samples.
-    pub(super) fn shade(&mut self, shader: &SurfaceShader<'_>, grid: SampleGrid) {
+    fn shade(&mut self, shader: &SurfaceShader<'_>, grid: SampleGrid) {
         let count = self.points.len();
         if self.colors.len() < count {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
@@ -135,31 +235,20 @@ impl SampleShades {
     }
 
     /// Finds the pixels of which all samples are opaque and shaded, those of `whole`.
-    pub(super) fn shade_whole(
-        &mut self,
-        shader: &SurfaceShader<'_>,
-        positions: &SamplePositions,
-        mean: &SampleMean,
-        grid: SampleGrid,
-    ) {
+    pub(super) fn shade_whole(&mut self, shader: &SurfaceShader<'_>, samples: TileSamples<'_>) {
         self.pixels.clear();
         self.pixels.resize(self.whole.len(), 0);
-        if positions.are_same() || !self.shade_certain(shader, positions, mean, grid) {
-            self.shade_all(shader, positions, mean, grid);
+        if samples.positions.are_same() || !self.shade_certain(shader, samples) {
+            self.shade_all(shader, samples);
         }
     }
 
     /// The same, as far as it does not matter where exactly samples lie before anybody places them; whether there is a way to know.
-    fn shade_certain(
-        &mut self,
-        shader: &SurfaceShader<'_>,
-        positions: &SamplePositions,
-        mean: &SampleMean,
-        grid: SampleGrid,
-    ) -> bool {
+    fn shade_certain(&mut self, shader: &SurfaceShader<'_>, samples: TileSamples<'_>) -> bool {
         let Some((lowest, tints)) = shader.tinted() else {
             return false;
         };
+        let TileSamples { positions, mean, grid } = samples;
         self.open.clear();
         let bounded = BoundedPixels {
             pixels: Pixels {
@@ -179,7 +268,7 @@ impl SampleShades {
         let rest = open.iter().map(|i| self.whole[*i]).collect();
         let whole = std::mem::replace(&mut self.whole, rest);
         let mut pixels = std::mem::replace(&mut self.pixels, vec![0; open.len()]);
-        self.shade_all(shader, positions, mean, grid);
+        self.shade_all(shader, samples);
         for (i, pixel) in open.iter().zip(&self.pixels) {
             pixels[*i] = *pixel;
         }
@@ -188,20 +277,8 @@ impl SampleShades {
     }
 
     /// The same, from where samples lie.
-    fn shade_all(
-        &mut self,
-        shader: &SurfaceShader<'_>,
-        positions: &SamplePositions,
-        mean: &SampleMean,
-        grid: SampleGrid,
-    ) {
-        if !positions.are_same() {
-            self.random.clear();
-            self.random
-                .extend(self.whole.iter().map(|place| positions.random(pixel_of(*place, grid))));
-            self.inside.clear();
-            positions.add(&self.random, &mut self.inside);
-        }
+    fn shade_all(&mut self, shader: &SurfaceShader<'_>, TileSamples { positions, mean, grid }: TileSamples<'_>) {
+        self.place(positions, grid);
         let tinted = shader.tinted();
         let placed = PlacedPixels {
             pixels: Pixels {
@@ -219,6 +296,18 @@ impl SampleShades {
             self.shade(shader, grid);
             mean.opaque_pixels(&self.colors[..self.points.len()], &mut self.pixels);
         }
+    }
+}
+
+/// Adds what the places of the samples of parts add up to, by those of all samples of their pixels.
+#[inline(always)]
+fn add_sums<'p, S: Simd>(
+    simd: S,
+    parts: impl Iterator<Item = (&'p [Position], &'p (u16, u64))>,
+    sums: &mut Vec<PlaceSums>,
+) {
+    for (inside, (first, mask)) in parts {
+        sums.push(PlaceSums::of_masked(simd, &inside[usize::from(*first)..], *mask));
     }
 }
 

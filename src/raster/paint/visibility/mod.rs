@@ -5,6 +5,7 @@
 //! no sum tells that; [`flat_resolve`] averages surfaces of one colour without shading.
 //! [`sample_colors`] tells the colour of each sample instead, for resolve filters that reach beyond a pixel.
 
+mod bounded_parts;
 pub(in crate::raster) mod buffer;
 mod by_samples;
 pub(in crate::raster) mod flat_resolve;

@@ -128,29 +128,29 @@ impl VisibilityPainter<'_> {
             self.shade_samples(origin, block);
         } else {
             self.shade(origin, &mut Whole::Put(block));
+            self.put_shared(block);
         }
-        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
-        self.put_shared(block);
-        shading
+        start.map(|start| start.elapsed()).unwrap_or_default()
     }
 
     /// Puts the pixels that several surfaces share.
-    fn put_shared(&self, block: &mut PixelBlock<'_>) {
+    pub(super) fn put_shared(&self, block: &mut PixelBlock<'_>) {
+        for i in 0..self.unresolved.places.len() {
+            self.put_one(i, block);
+        }
+    }
+
+    /// Puts one of them, once all of its samples were added up.
+    #[inline]
+    pub(super) fn put_one(&self, i: usize, block: &mut PixelBlock<'_>) {
         let ShadingQueue {
             places, sums, lights, ..
         } = &self.unresolved;
-        match &self.by_samples.mean {
-            SampleMean::Stored(resolver) => {
-                for (place, sums) in places.iter().zip(sums) {
-                    block.put(*place, resolver.pixel(*sums));
-                }
-            }
-            SampleMean::Linear(resolver) => {
-                for (place, light) in places.iter().zip(lights) {
-                    block.put(*place, resolver.pixel(*light));
-                }
-            }
-        }
+        let pixel = match &self.by_samples.mean {
+            SampleMean::Stored(resolver) => resolver.pixel(sums[i]),
+            SampleMean::Linear(resolver) => resolver.pixel(lights[i]),
+        };
+        block.put(places[i], pixel);
     }
 
     /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.

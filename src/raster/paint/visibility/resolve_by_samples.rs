@@ -2,24 +2,25 @@
 //! samples is known before, in linear light, which is no sum of what samples store, and where translucent paints are shaded.
 //!
 //! As in `resolve` only what is seen is shaded, primitive by primitive. Pixels that show one primitive are averaged as soon as
-//! their samples are shaded; what several share is added up. In tiles of flat colours light is added up by surface.
+//! their samples are shaded; what several share is added up, and where it matters little what exactly the samples of a part show,
+//! only bounds of that are: see `bounded_parts`. In tiles of flat colours light is added up by surface.
 
-use crate::color::{Light, LightResolver, Premultiplied16, SampleMean};
+use crate::color::{Light, LightResolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
-use crate::raster::paint::visibility::by_samples::{BySamples, TOGETHER};
+use crate::raster::paint::visibility::by_samples::{BySamples, SharedPixels, TOGETHER, TileSamples};
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::paint::visibility::resolve::each_shared;
-use crate::raster::paint::visibility::shading_queue::{Fragment, ShadingQueue, ToShade};
+use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
 
 impl VisibilityPainter<'_> {
-    /// Shades everything that waits, sample by sample: pixels that show one primitive go to `block`, whose first pixel is `origin`;
-    /// what parts of pixels show is added to their sums.
+    /// Shades everything that waits, sample by sample as far as that matters, and puts all pixels into `block`, whose first pixel is
+    /// `origin`.
     pub(super) fn shade_samples(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
         let Self {
             context,
@@ -31,6 +32,7 @@ impl VisibilityPainter<'_> {
         let BySamples {
             positions,
             mean,
+            parts,
             shades,
             ..
         } = by_samples;
@@ -41,8 +43,10 @@ impl VisibilityPainter<'_> {
             sorted,
             ..
         } = unresolved;
-        let grid = context.samples_from(origin);
-        let count = positions.count();
+        parts.clear();
+        let (count, grid) = (positions.count(), context.samples_from(origin));
+        let samples = TileSamples { positions, mean, grid };
+        let mut shared = SharedPixels { places, sums, lights };
         for ToShade {
             surface,
             mut runs,
@@ -56,33 +60,83 @@ impl VisibilityPainter<'_> {
             let repeats = shader.is_level() && positions.are_same();
             while !runs.is_empty() {
                 let (taken, others) = runs.split_at(shades.take(runs, repeats));
-                shades.shade_whole(&shader, positions, mean, grid);
+                shades.shade_whole(&shader, samples);
                 shades.put(taken, repeats, block);
                 let pixels = shades.whole.len();
                 self.samples_shaded += shader.evaluations((pixels * count) as u64, pixels);
                 runs = others;
             }
             for fragments in fragments.chunks(TOGETHER) {
-                shades.points.clear();
-                for Fragment { first, pixel, mask, .. } in fragments {
-                    shades.gather(places[*pixel as usize], (*first, *mask), positions, grid);
-                }
-                shades.shade(&shader, grid);
-                self.samples_shaded += shader.evaluations(shades.points.len() as u64, fragments.len());
-                let mut colors = &shades.colors[..shades.points.len()];
-                for Fragment { pixel, mask, .. } in fragments {
-                    let (of_fragment, others) = colors.split_at(mask.count_ones() as usize);
-                    colors = others;
-                    match mean {
-                        SampleMean::Stored(_) => {
-                            let found = Premultiplied16::sums(of_fragment);
-                            for (sum, channel) in sums[*pixel as usize].iter_mut().zip(found) {
-                                *sum += channel;
-                            }
-                        }
-                        SampleMean::Linear(resolver) => lights[*pixel as usize] += resolver.opaque_light(of_fragment),
-                    }
-                }
+                let is_bounded = parts.add(surface, fragments, shared.places.len(), |masks, bounds| {
+                    let places = fragments.iter().map(|part| shared.places[part.pixel as usize]);
+                    shades.bound(&shader, samples, (places, masks), bounds)
+                });
+                let shaded = if is_bounded {
+                    fragments.iter().map(|part| part.mask.count_ones() as usize).sum()
+                } else {
+                    shades.add_fragments(&shader, samples, fragments, &mut shared)
+                };
+                self.samples_shaded += shader.evaluations(shaded as u64, fragments.len());
+            }
+        }
+        if parts.is_empty() {
+            self.put_shared(block);
+        } else if parts.put_certain(&shared, mean, block) {
+            self.shade_open(origin);
+            self.put_open(block);
+        }
+    }
+
+    /// Shades the parts of pixels that bounds leave open.
+    #[inline(never)]
+    fn shade_open(&mut self, origin: [i32; 2]) {
+        let Self {
+            context,
+            surfaces,
+            unresolved,
+            by_samples,
+            ..
+        } = self;
+        let BySamples {
+            positions,
+            mean,
+            parts,
+            open,
+            shades,
+            ..
+        } = by_samples;
+        let ShadingQueue {
+            places,
+            sums,
+            lights,
+            sorted,
+            ..
+        } = unresolved;
+        let samples = TileSamples {
+            positions,
+            mean,
+            grid: context.samples_from(origin),
+        };
+        let mut shared = SharedPixels { places, sums, lights };
+        for ToShade { surface, fragments, .. } in sorted.by_surface() {
+            parts.open(surface, fragments, open);
+            if open.is_empty() {
+                continue;
+            }
+            let Some(shader) = SurfaceShader::new(context, surfaces.get(surface), &surfaces.stacks) else {
+                continue;
+            };
+            for fragments in open.chunks(TOGETHER) {
+                shades.add_fragments(&shader, samples, fragments, &mut shared);
+            }
+        }
+    }
+
+    /// Puts the pixels that bounds left open.
+    fn put_open(&self, block: &mut PixelBlock<'_>) {
+        for i in 0..self.unresolved.places.len() {
+            if self.by_samples.parts.is_open(i) {
+                self.put_one(i, block);
             }
         }
     }

@@ -1,0 +1,124 @@
+//! Sums over some samples of a pixel that are known to lie between two ends, and the pixel where both ends make the same.
+//!
+//! ```text
+//!     byte 118         byte 119        byte 120
+//!   |- - - - - - - -|- -[====]- - - -|- - - - -[==|==]-    mean of a pixel's samples
+//!                      certain            somebody has to look at the samples
+//! ```
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, u64x8};
+
+use super::{Light, Premultiplied16, SampleMean};
+
+const ONE: f64 = Premultiplied16::ONE as f64;
+
+/// Between what red, green and blue of some opaque samples of a pixel add up to: stored values, or their light in parts of all
+/// light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SumBounds {
+    pub(crate) least: [u64; 3],
+    pub(crate) most: [u64; 3],
+    /// How many samples.
+    pub(crate) count: u32,
+}
+
+impl SumBounds {
+    /// What `count` samples add up to of which nothing is known.
+    pub(crate) fn unknown(count: u32, mean: &SampleMean) -> Self {
+        let one = match mean {
+            SampleMean::Stored(_) => u64::from(Premultiplied16::ONE),
+            SampleMean::Linear(resolver) => u64::from(resolver.of_stored()[usize::from(Premultiplied16::ONE)]),
+        };
+        Self {
+            least: [0; 3],
+            most: [one * u64::from(count); 3],
+            count,
+        }
+    }
+
+    /// The pixel that these samples make with others whose channels add up to `sums`, if it is certain.
+    #[inline]
+    pub(crate) fn pixel_with_sums(&self, sums: [u32; 4], mean: &SampleMean) -> Option<u32> {
+        let SampleMean::Stored(resolver) = mean else {
+            return None;
+        };
+        self.same_of_both(|ends| {
+            let all: [u32; 4] = std::array::from_fn(|k| match ends.get(k) {
+                Some(sum) => sums[k] + u32::try_from(*sum).unwrap_or(0),
+                None => sums[k] + self.count * u32::from(Premultiplied16::ONE),
+            });
+            resolver.pixel(all)
+        })
+    }
+
+    /// The same with others of this light.
+    #[inline]
+    pub(crate) fn pixel_with_light(&self, light: Light, mean: &SampleMean) -> Option<u32> {
+        let SampleMean::Linear(resolver) = mean else {
+            return None;
+        };
+        self.same_of_both(|ends| {
+            let mut all = light;
+            all += Light::of_opaque(ends, self.count);
+            resolver.pixel(all)
+        })
+    }
+
+    #[inline]
+    fn same_of_both(&self, pixel: impl Fn([u64; 3]) -> u32) -> Option<u32> {
+        let least = pixel(self.least);
+        (self.least == self.most || pixel(self.most) == least).then_some(least)
+    }
+}
+
+/// The sums of a channel over `counts` samples of eight pixels whose means, or the value whose light is the mean of theirs, lie at
+/// such an end, in units of [`Premultiplied16`]; rounded down.
+#[inline(always)]
+pub(crate) fn sums_at<S: Simd>(simd: S, end: f64x8<S>, counts: f64x8<S>, mean: &SampleMean) -> [u64; 8] {
+    let SampleMean::Linear(resolver) = mean else {
+        return whole(end.max(f64x8::splat(simd, 0.0)) * counts).to_array();
+    };
+    let light = resolver.of_stored();
+    let below = end.max(f64x8::splat(simd, 0.0)).min(f64x8::splat(simd, ONE)).floor();
+    let [mut from, mut to] = [[0.0; 8]; 2];
+    for (i, below) in whole(below).to_array().into_iter().enumerate() {
+        let at = low_part(below);
+        from[i] = f64::from(light[usize::from(at)]);
+        to[i] = f64::from(light[usize::from(at.wrapping_add(1))]);
+    }
+    // Between neighbours the curve is straight but for far less than ends leave room for.
+    let (from, to) = (f64x8::simd_from(simd, from), f64x8::simd_from(simd, to));
+    whole((from + (to - from) * (end - below)) * counts).to_array()
+}
+
+/// Numbers that are not negative, rounded down.
+#[inline(always)]
+fn whole<S: Simd>(values: f64x8<S>) -> u64x8<S> {
+    // Where whole numbers stand in the lower bits.
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    (values.floor() + WHOLE).bitcast::<u64x8<S>>() & ((1 << 52) - 1)
+}
+
+/// At most [`ONE`].
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower part is meant")]
+fn low_part(whole: u64) -> u16 {
+    whole as u16
+}
+
+impl std::ops::AddAssign for SumBounds {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        for k in 0..3 {
+            self.least[k] += other.least[k];
+            self.most[k] += other.most[k];
+        }
+        self.count += other.count;
+    }
+}

@@ -1,0 +1,160 @@
+//! What the places of some samples of a pixel add up to: enough to say where their middle is and how far they are spread.
+
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x16};
+
+use crate::raster::sampling::positions::Position;
+
+/// Samples whose places are added up together.
+const TOGETHER: usize = 16;
+
+/// Samples that a part of a table stands for.
+const BYTE: usize = 8;
+
+/// The sums over some samples of a pixel, in points of the lattice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PlaceSums {
+    pub(crate) count: u32,
+    /// Columns and rows.
+    pub(crate) places: [u32; 2],
+    /// Squares of columns, products of columns and rows, and squares of rows.
+    pub(crate) squares: [u32; 3],
+}
+
+/// The sums over any samples of a pixel where these lie at the same places in every pixel: for each eight of them one sum for each
+/// byte of a mask.
+#[derive(Debug, Default)]
+pub(crate) struct PlaceSumsByMask(Vec<[PlaceSums; 1 << BYTE]>);
+
+impl PlaceSums {
+    /// Of one sample.
+    fn of([column, row]: Position) -> Self {
+        let [x, y] = [column, row].map(u32::from);
+        Self {
+            count: 1,
+            places: [x, y],
+            squares: [x * x, x * y, y * y],
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let ([x, y], [right, down]) = (self.places, other.places);
+        let ([a, b, c], [xx, xy, yy]) = (self.squares, other.squares);
+        Self {
+            count: self.count + other.count,
+            places: [x + right, y + down],
+            squares: [a + xx, b + xy, c + yy],
+        }
+    }
+
+    /// Of those of up to 64 samples that a mask names, the first one by its lowest bit.
+    #[inline(always)]
+    pub(crate) fn of_masked<S: Simd>(simd: S, places: &[Position], mask: u64) -> Self {
+        let mut sums = Self::default();
+        for (first, places) in (0..u64::BITS).step_by(TOGETHER).zip(places.chunks(TOGETHER)) {
+            let bits = mask >> first & ((1 << TOGETHER) - 1);
+            let mut all = [[0; 2]; TOGETHER];
+            if let Some(places) = places.first_chunk() {
+                all = *places;
+            } else {
+                all[..places.len()].copy_from_slice(places);
+            }
+            sums = sums.plus(Self::of_sixteen(simd, &all, bits));
+        }
+        sums
+    }
+
+    #[inline(always)]
+    fn of_sixteen<S: Simd>(simd: S, places: &[Position; TOGETHER], bits: u64) -> Self {
+        let (first, second) = u8x32::from_slice(simd, places.as_flattened()).widen();
+        let all: u32x16<S> = first.combine(second).bitcast();
+        let named = mask32x16::from_bitmask(simd, bits).select(all, u32x16::splat(simd, 0));
+        let columns: i16x32<S> = (named & 0xFFFF).bitcast();
+        let rows: i16x32<S> = (named >> 16).bitcast();
+        // Sixteen columns of a byte fit the lower half.
+        let both = sum(named.bitcast());
+        Self {
+            count: bits.count_ones(),
+            places: [both & 0xFFFF, both >> 16],
+            squares: [
+                sum(columns.pairwise_dot_product(columns)),
+                sum(columns.pairwise_dot_product(rows)),
+                sum(rows.pairwise_dot_product(rows)),
+            ],
+        }
+    }
+}
+
+#[inline(always)]
+fn sum<S: Simd>(lanes: i32x16<S>) -> u32 {
+    let mut sum = 0_u32;
+    for lane in lanes.to_array() {
+        sum = sum.wrapping_add(lane.cast_unsigned());
+    }
+    sum
+}
+
+impl PlaceSumsByMask {
+    /// Of samples at these places.
+    pub(crate) fn new(places: &[Position]) -> Self {
+        let table = |places: &[Position]| {
+            let mut sums = [PlaceSums::default(); 1 << BYTE];
+            for (bit, place) in places.iter().enumerate() {
+                // All with the bits below are known.
+                let (known, others) = sums.split_at_mut(1 << bit);
+                for (sum, known) in others.iter_mut().zip(known) {
+                    *sum = known.plus(PlaceSums::of(*place));
+                }
+            }
+            sums
+        };
+        Self(places.chunks(BYTE).map(table).collect())
+    }
+
+    /// Of those of 64 samples from `first` on, a multiple of 64, that a mask names.
+    #[inline(always)]
+    pub(crate) fn of(&self, first: usize, mask: u64) -> PlaceSums {
+        let mut sums = PlaceSums::default();
+        for (table, byte) in self.0[first / BYTE..].iter().zip(mask.to_le_bytes()) {
+            sums = sums.plus(table[usize::from(byte)]);
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::simd;
+
+    #[test]
+    fn sums_are_those_of_the_places_one_by_one() {
+        arbtest::arbtest(|u| {
+            let count = u.int_in_range(1..=256)?;
+            let places: Vec<Position> = (0..count).map(|_| u.arbitrary()).collect::<Result<_, _>>()?;
+            let table = PlaceSumsByMask::new(&places);
+            for (first, places) in (0..).step_by(64).zip(places.chunks(64)) {
+                let mask = u.arbitrary::<u64>()? & u64::MAX >> (64 - places.len());
+                let named = places.iter().enumerate().filter(|(i, _)| mask >> i & 1 == 1);
+                let expected = named.fold(PlaceSums::default(), |sums, (_, place)| {
+                    sums.plus(PlaceSums::of(*place))
+                });
+                assert_eq!(table.of(first, mask), expected, "by the table: {mask:b} of {places:?}");
+                for (name, level) in simd::tested() {
+                    let found = dispatch!(level, simd => PlaceSums::of_masked(simd, places, mask));
+                    assert_eq!(found, expected, "{name}: {mask:b} of {places:?}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+}

@@ -13,8 +13,6 @@ use std::{fmt, io};
 pub(in crate::viewer) enum AtEnd {
     /// Every job is done first: files are to be whole.
     Complete,
-    /// Waiting jobs are dropped and the one at work is awaited: it was told to give up.
-    Abandon,
     /// Waiting jobs are dropped and the one at work is left alone: it may take long, and nobody needs it.
     Detach,
 }
@@ -161,6 +159,23 @@ mod tests {
         (1..=100).for_each(|n| workers.push(n));
         drop(workers);
         assert_eq!(count.load(Ordering::SeqCst), 5050, "all jobs were done before the end");
+    }
+
+    #[test]
+    fn detached_crew_is_not_waited_for() {
+        let (begun, begins) = std::sync::mpsc::channel();
+        let (end, ended) = std::sync::mpsc::channel::<()>();
+        let ended = Arc::new(Mutex::new(ended));
+        let work = move |(): ()| {
+            begun.send(()).expect("somebody listens");
+            // Until the sender is gone.
+            let _ = ended.lock().expect("no panic").recv();
+        };
+        let workers = WorkerPool::start("test", 1, AtEnd::Detach, work).expect("a thread");
+        workers.push(());
+        begins.recv().expect("a job at work");
+        drop(workers);
+        end.send(()).expect("it is still at work");
     }
 
     #[test]

@@ -119,7 +119,7 @@ impl Drawing {
         let work = move |job: Job| job.draw(&|drawn| mailbox.post(drawn));
         Ok(Self {
             id,
-            workers: WorkerPool::start("draw", 1, AtEnd::Abandon, work)?,
+            workers: WorkerPool::start("draw", 1, AtEnd::Detach, work)?,
             frame: None,
             frame_wish: 0,
             frame_since: Instant::now(),
@@ -511,7 +511,7 @@ fn is_too_slow(takes: Duration, since: Duration) -> bool {
 
 impl Drop for Drawing {
     fn drop(&mut self) {
-        // The pool of workers, dropped next, waits for the thread.
+        // Nobody waits for the thread: a tile of a hundred thousand curves takes seconds, and is looked up from only at its end.
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }

@@ -165,8 +165,9 @@ const SURE: u32 = 64;
 /// The higher sample rates that keys reach, and the highest.
 fn rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     let now = own.pattern.nearest(own.sample_rate);
-    // So many samples may be as near to what is right as the highest rate, which is the measure here, is itself.
-    if now.samples() > SURE {
+    // So many samples may be as near to what is right as the highest rate, which is the measure here, is itself. A pattern of
+    // somebody's own takes one rate only.
+    if now.samples() > SURE || is_own(own.pattern) {
         return Vec::new();
     }
     let by_key = std::iter::successors(Some(now), |rate| Some(rate.higher()).filter(|next| next != rate));
@@ -179,6 +180,11 @@ fn rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
             (sample_rate.samples().to_string(), settings)
         })
         .collect()
+}
+
+/// Whether a pattern came from a file, as the `msaa` patterns do.
+fn is_own(pattern: SamplePattern) -> bool {
+    matches!(pattern, SamplePattern::Custom(_))
 }
 
 /// The pattern whose samples share neither columns nor rows; where a single sample lies is luck.
@@ -221,15 +227,15 @@ fn post_processes(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
         .collect()
 }
 
-/// Exact areas where there are many samples already, and samples where areas are covered: a few samples more are the first thing
-/// to try.
+/// Exact areas where there are many samples already or cannot be more, and samples where areas are covered: a few samples more
+/// are the first thing to try.
 fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     const MANY: u32 = 16;
     let coverage = match own.coverage {
         PixelCoverage::Exact => PixelCoverage::Sampled,
         PixelCoverage::Sampled => PixelCoverage::Exact,
     };
-    let is_sensible = own.coverage.is_exact() || own.sample_rate.samples() >= MANY;
+    let is_sensible = own.coverage.is_exact() || own.sample_rate.samples() >= MANY || is_own(own.pattern);
     is_sensible
         .then(|| (coverage.name().to_owned(), RenderSettings { coverage, ..*own }))
         .into_iter()

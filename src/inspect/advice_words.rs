@@ -237,7 +237,7 @@ impl Truth {
             "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
         } else if self.cures.is_empty() {
             format!(
-                "This pixel is within {levels} levels of the truth (256 samples); no single setting brings it nearer."
+                "This pixel is within {levels} levels of the truth (256 samples); no setting that was tried brings it nearer by itself."
             )
         } else {
             format!("This pixel is {levels} levels from the truth (256 samples).")

@@ -16,11 +16,16 @@ impl Explanation {
     pub(super) fn around_lines(&self, around: &Around) -> Vec<String> {
         let count = around.pixels.len();
         let plural = if count == 1 { "" } else { "s" };
+        let samples = match self.resolve.samples {
+            1 => "1 sample weighs 1, wherever it lies around the pixel's middle.".to_owned(),
+            samples => format!(
+                "{samples} samples of {count} pixel{plural} weigh 1 together, each by its place around the pixel's middle."
+            ),
+        };
         let mut lines = vec![format!(
-            "Filter {}, radius {}: {} samples of {count} pixel{plural} weigh 1 together, each by its place around the pixel's middle.",
+            "Filter {}, radius {}: {samples}",
             around.filter,
             number(around.radius),
-            self.resolve.samples,
         )];
         if self.resolve.space() == ResolveSpace::Linear {
             let words = "Their light is summed, each weighted by its alpha too: sRGB values are decoded before and encoded after.";

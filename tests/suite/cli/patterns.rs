@@ -256,6 +256,25 @@ fn cli_sweeps_and_boards_take_patterns_from_files() {
 }
 
 #[test]
+fn cli_pixels_of_patterns_from_files_are_told_of_exact_areas() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = [
+        "inspect",
+        "gallery:study/01_zone_plate.svg",
+        "--pixel",
+        "170,32",
+        "--size",
+        "400x300",
+    ];
+    let told = done(folder.path(), &[&scene[..], &["--pattern", "msaa-8"]].concat());
+    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        told.contains("Coverage by exact areas: 110 levels"),
+        "its number of samples is fixed: {told}"
+    );
+}
+
+#[test]
 fn cli_explanations_tell_what_places_weigh() {
     let folder = folder_with_a_pattern();
     let told = done(

@@ -7,8 +7,8 @@ pub use super::row::{About, Control, PanelRow, PictureSetting, SettingChange, Se
 
 use std::path::Path;
 
-use super::Settings;
 use super::table::picture_settings;
+use super::{Settings, values};
 
 /// The settings, in the order of menus and of the command line.
 pub fn all() -> impl Iterator<Item = &'static PictureSetting> {
@@ -88,7 +88,7 @@ pub fn read_files(text: &str, folder: Option<&Path>) -> Result<String, String> {
         },
         None => Ok(part.to_owned()),
     };
-    let parts: Result<Vec<String>, String> = text.split(',').map(one).collect();
+    let parts: Result<Vec<String>, String> = values::list(text).into_iter().map(one).collect();
     Ok(parts?.join(","))
 }
 

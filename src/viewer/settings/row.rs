@@ -323,6 +323,7 @@ impl PictureSetting {
     /// # Errors
     /// One line where the file holds no value.
     pub fn read(&self, text: &str, folder: Option<&Path>) -> Result<String, String> {
+        let text = values::unquoted(text);
         match self.values {
             Values::NamedOrWritten { is_file, of_file, .. } if is_file(text) => {
                 let path: PathBuf = values::path(text.trim());
@@ -332,12 +333,19 @@ impl PictureSetting {
         }
     }
 
-    /// The same for a list of values with commas between them, from the folder of the process.
+    /// The same for a list of values with commas between them, from the folder of the process. The name of a file may have
+    /// commas of its own: where double quotes are around it, or where it is the only value.
     ///
     /// # Errors
     /// As [`PictureSetting::read`].
     pub fn read_list(&self, text: &str) -> Result<String, String> {
-        let values: Result<Vec<String>, String> = text.split(',').map(|value| self.read(value, None)).collect();
+        if values::path(text.trim()).is_file() {
+            return self.read(text, None);
+        }
+        let values: Result<Vec<String>, String> = values::list(text)
+            .into_iter()
+            .map(|value| self.read(value, None))
+            .collect();
         Ok(values?.join(","))
     }
 

@@ -64,6 +64,22 @@ pub(in crate::viewer) fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',').map(number).collect()
 }
 
+/// The values of a list with commas between them; a comma inside double quotes belongs to its value.
+pub(super) fn list(text: &str) -> Vec<&str> {
+    let mut is_quoted = false;
+    text.split(|letter| {
+        is_quoted ^= letter == '"';
+        letter == ',' && !is_quoted
+    })
+    .collect()
+}
+
+/// A value without the double quotes around it, if there are any.
+pub(super) fn unquoted(text: &str) -> &str {
+    let inner = text.trim().strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    inner.unwrap_or(text)
+}
+
 /// `X,Y`.
 pub(in crate::viewer) fn point(text: &str) -> Option<DVec2> {
     match *numbers(text)?.as_slice() {
@@ -128,6 +144,28 @@ mod tests {
             PathBuf::from("~/a.svg"),
             "nobody is at home"
         );
+    }
+
+    #[test]
+    fn lists_keep_commas_inside_quotes() {
+        for (text, values) in [
+            ("grid", &["grid"][..]),
+            ("grid,own.toml", &["grid", "own.toml"]),
+            ("grid,\"my,own.toml\",r2", &["grid", "\"my,own.toml\"", "r2"]),
+            ("\"open,to the end", &["\"open,to the end"]),
+            ("", &[""]),
+        ] {
+            assert_eq!(list(text), values, "{text}");
+        }
+        for (text, value) in [
+            ("\"a,b\"", "a,b"),
+            (" \"a\" ", "a"),
+            (" a", " a"),
+            ("\"", "\""),
+            ("", ""),
+        ] {
+            assert_eq!(unquoted(text), value, "{text}");
+        }
     }
 
     #[test]

@@ -256,6 +256,35 @@ fn cli_sweeps_and_boards_take_patterns_from_files() {
 }
 
 #[test]
+fn cli_files_of_patterns_may_have_commas_in_their_names() {
+    let folder = folder_with_a_pattern();
+    fs::rename(folder.path().join("own.toml"), folder.path().join("my,own.toml")).unwrap();
+    let render = ["render", "a.svg", "-o", "a.png", "--pattern", "my,own.toml"];
+    done(folder.path(), &render);
+    let record = Record::of_file(&folder.path().join("a.png")).unwrap().unwrap();
+    assert_eq!(record.settings["pattern"], "own:64/192+128/128x2", "the only value");
+    let sheet = ["sheet", "a.svg", "-o", "s.png", "--size", "40x30"];
+    let list = ["--pattern=grid,\"my,own.toml\""];
+    done(folder.path(), &[&sheet[..], &list].concat());
+    let told = fs::read_to_string(folder.path().join("s/figures.md")).unwrap();
+    assert!(told.contains("grid (1 sample), own (3 samples)"), "in a list: {told}");
+    let board = [
+        "board",
+        "a.svg",
+        "--csv",
+        "--frames",
+        "1",
+        "--size",
+        "40x30",
+        "--region",
+        "0,0,40,30",
+    ];
+    let with = ["--with", "rules float, pattern \"my,own.toml\""];
+    let added = done(folder.path(), &[&board[..], &with].concat());
+    assert!(added.contains("3,own"), "among settings: {added}");
+}
+
+#[test]
 fn cli_pixels_of_patterns_from_files_are_told_of_exact_areas() {
     let folder = tempfile::tempdir().unwrap();
     let scene = [

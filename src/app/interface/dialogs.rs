@@ -2,7 +2,7 @@
 
 use crate::viewer::{AbCommand, Against, WindowCommand};
 use egui::text::{CCursor, CCursorRange};
-use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, Rect, RichText, ScrollArea};
+use egui::{Align, Align2, Area, Button, Context, Id, Key, Label, Layout, Modal, Order, Rect, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
@@ -392,6 +392,9 @@ fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
     .inner
 }
 
+/// Room for the button beside the title of the help, in points.
+const CLOSE: f32 = 56.0;
+
 /// Ways on for newcomers, and all keys and gestures from the one table.
 fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
     let screen = ctx.content_rect();
@@ -400,7 +403,11 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
     let modal = modal("help").show(ctx, |ui| {
         ui.set_width((screen.width() - 60.0).min(if columns == 2 { 780.0 } else { 430.0 }));
         ui.horizontal(|ui| {
-            ui.heading("Keys and gestures");
+            ui.scope(|ui| {
+                // In a tiny window the title gives way to the button.
+                ui.set_max_width((ui.available_width() - CLOSE).max(0.0));
+                ui.add(Label::new(RichText::new("Keys and gestures").heading()).truncate());
+            });
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.button("Close").clicked())
                 .inner
         })
@@ -408,7 +415,9 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
             | {
                 ui.add_space(4.0);
                 look::bars_beside(ui);
-                let mut area = ScrollArea::vertical().max_height(screen.height() - 120.0);
+                // An area keeps the height that it had: without a least height, the help of a window that grew stays low.
+                let height = (screen.height() - 120.0).max(64.0);
+                let mut area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
                 if just_opened {
                     // The ways on stand at the top.
                     area = area.vertical_scroll_offset(0.0);
@@ -462,8 +471,8 @@ fn help_line(ui: &mut Ui, keys: &str, help: &str) {
     ui.horizontal_top(|ui| {
         ui.allocate_ui_with_layout(vec2(112.0, 16.0), Layout::top_down(Align::Min), |ui| {
             ui.set_width(112.0);
-            ui.add(egui::Label::new(RichText::new(keys).small().strong()).wrap());
+            ui.add(Label::new(RichText::new(keys).small().strong()).wrap());
         });
-        ui.add(egui::Label::new(RichText::new(help).small()).wrap());
+        ui.add(Label::new(RichText::new(help).small()).wrap());
     });
 }

@@ -93,6 +93,41 @@ fn comparison_stays_at_hand_beside_an_explained_pixel() {
 }
 
 #[test]
+fn help_grows_with_its_window() {
+    let help = |sizes: &[[u32; 2]]| {
+        let mut session = session(Vec::new(), sizes[0]);
+        for size in sizes {
+            session.resize(*size);
+            key(&mut session, "?");
+            session.settle();
+            if size != sizes.last().expect("a size") {
+                key(&mut session, "Escape");
+                session.settle();
+            }
+        }
+        top_of(&mut session, "Keys and gestures")
+    };
+    let (grown, fresh) = (help(&[[320, 240], [900, 700]]), help(&[[900, 700]]));
+    assert!((grown - fresh).abs() < 1.0, "{grown} and {fresh} points from the top");
+}
+
+#[test]
+fn title_of_the_help_gives_way_to_its_button() {
+    let mut session = session(Vec::new(), [150, 120]);
+    key(&mut session, "?");
+    session.settle();
+    let nodes = nodes(&mut session);
+    let right = |node: &Node| node.bounds().map_or(0.0, |bounds| bounds.x1);
+    let title = nodes
+        .iter()
+        .find(|node| node.value().is_some_and(|value| value.starts_with("Keys")));
+    let close = nodes.iter().find(|node| node.label() == Some("Close"));
+    let (title, close) = (title.map(right), close.and_then(Node::bounds).map(|bounds| bounds.x0));
+    let (title, close) = title.zip(close).expect("title and button");
+    assert!(title <= close, "{title} beside {close}");
+}
+
+#[test]
 fn explanation_takes_the_room_of_the_side_panel() {
     let mut session = session(Vec::new(), [800, 600]);
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));

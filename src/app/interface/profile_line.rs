@@ -23,7 +23,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, pointed: Option<[u32; 2
     cursor(ui, viewer);
     let scale = ui.pixels_per_point();
     for place in profile.places() {
-        let [from, to] = place.ends.map(|end| in_points(end, scale));
+        let Some(ends) = near(place.ends) else { continue };
+        let [from, to] = ends.map(|end| in_points(end, scale));
         let pane = free.intersect(points(&place.area, scale));
         for part in beside_insets(viewer, pane, scale) {
             let painter = ui.painter().with_clip_rect(part);
@@ -68,10 +69,44 @@ fn cursor(ui: &Ui, viewer: &Viewer) {
     ui.ctx().set_cursor_icon(icon);
 }
 
+/// The part of a line that a window may show, in window pixels: ends that were brought near one by one would turn it.
+fn near([from, to]: [DVec2; 2]) -> Option<[DVec2; 2]> {
+    const REACH: f64 = 1e5;
+    let way = to - from;
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for (at, step) in from.to_array().into_iter().zip(way.to_array()) {
+        if step != 0.0 {
+            let [low, high] = [-REACH, REACH].map(|side| (side - at) / step);
+            (first, last) = (first.max(low.min(high)), last.min(low.max(high)));
+        } else if at.abs() > REACH {
+            return None;
+        }
+    }
+    (first <= last).then(|| [first, last].map(|part| from + way * part))
+}
+
 /// Window pixels as points; far ones are brought near, where no window reaches.
 #[expect(clippy::cast_possible_truncation, reason = "clamped")]
 pub(super) fn in_points(at: DVec2, scale: f32) -> Pos2 {
     const FAR: f64 = 1e6;
     let [x, y] = at.to_array().map(|side| side.clamp(-FAR, FAR) as f32);
     pos2(x, y) / scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec2;
+
+    #[test]
+    fn far_lines_keep_their_slope() {
+        let ends = [dvec2(3.5, 4.5), dvec2(70.5, 9.5)];
+        assert_eq!(near(ends), Some(ends), "near ones stay");
+        let [from, to] = near([dvec2(-4e8, -5e7), dvec2(4e8, 5e7)]).expect("a part through the window");
+        let way = to - from;
+        assert!((way.y / way.x - 0.125).abs() < 1e-9, "{from} to {to}");
+        assert!(from.abs().max_element() < 1.1e5 && to.abs().max_element() < 1.1e5);
+        assert_eq!(near([dvec2(-4e8, 5e7), dvec2(4e8, 6e7)]), None, "far below");
+        assert_eq!(near([dvec2(2e5, 0.0), dvec2(2e5, 9.0)]), None, "upright and far away");
+    }
 }

@@ -206,13 +206,17 @@ impl Axes {
             );
         }
         let below = self.rect.bottom() + 2.0;
-        let mut free = Rangef::new(f32::NEG_INFINITY, self.rect.right() - 22.0);
+        // Between the number before and the unit.
+        let mut free = Rangef::new(f32::NEG_INFINITY, self.rect.right() - 12.0);
         for distance in ticks(self.along, self.rect.width() / BETWEEN) {
             let x = self.x(distance);
             painter.vline(x, self.rect.y_range(), line);
-            if free.contains(x) {
-                text(pos2(x, below), Align2::CENTER_TOP, format!("{distance:.0}"), ink);
-                free.min = x + BETWEEN * 0.6;
+            // Far away there is a line of a thousand million pixels, and its numbers are as long.
+            let number = painter.layout_no_wrap(format!("{distance:.0}"), FontId::proportional(10.0), ink);
+            let half = number.size().x.max(20.0) / 2.0;
+            if free.min <= x - half && x + half <= free.max {
+                free.min = x + half + 2.0;
+                painter.galley(pos2(x - number.size().x / 2.0, below), number, ink);
             }
         }
         text(

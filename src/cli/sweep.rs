@@ -135,7 +135,21 @@ fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, F
     for (path, named) in outputs(options, &chart_of(options)) {
         guard.target(path, named).map_err(|error| unwritable(path, &error))?;
     }
+    let chart = chart_of(options);
+    if options.plot.is_none() && !options.force && is_of_another_command(&chart) {
+        let chart = chart.display();
+        return Err(Failure::input(format!(
+            "{chart}: this picture is no chart of a sweep, and would be lost; choose another place with --plot, or --force \
+             replaces it"
+        )));
+    }
     Ok(guard)
+}
+
+/// Whether a picture is one of this program, and something else than a chart: nobody said that it may be replaced.
+fn is_of_another_command(path: &Path) -> bool {
+    let record = Record::of_file(path).ok().flatten();
+    record.is_some_and(|record| record.arguments.first().is_none_or(|verb| verb != "sweep"))
 }
 
 /// What each combination draws.

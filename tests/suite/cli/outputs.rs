@@ -166,6 +166,11 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
     refused(folder, &sweep("points.csv"), &["points.csv", "--force"]);
     done(folder, &sweep("own.csv"));
     done(folder, &sweep("own.csv"));
+    // The chart beside the table has a name that nobody said.
+    done(folder, &["render", "gallery:basic/test4.svg", "-o", "drawn.png", SMALL]);
+    let drawn = fs::read(at("drawn.png")).unwrap();
+    refused(folder, &sweep("drawn.csv"), &["drawn.png", "--plot", "--force"]);
+    assert!(fs::read(at("drawn.png")).unwrap() == drawn, "kept");
 }
 
 /// A lesson of which `slides/01.png` is the texture of the second step's scene.

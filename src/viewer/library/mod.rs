@@ -205,12 +205,15 @@ impl SceneSource {
         }
     }
 
-    /// The scene that a person writes as an address: `gallery:NAME` or a path.
+    /// The scene that a person writes as an address: `gallery:NAME`, with its ending or without as it is spoken of, or a path.
     pub fn from_address(address: &Path) -> Self {
+        let is_called = |scene: &gallery::GalleryScene, name: &str| {
+            scene.name == name || scene.name.strip_suffix(".svg") == Some(name)
+        };
         let in_gallery = address
             .to_str()
             .and_then(|text| text.strip_prefix(GALLERY_PREFIX))
-            .and_then(|name| gallery::SCENES.iter().position(|scene| scene.name == name));
+            .and_then(|name| gallery::SCENES.iter().position(|scene| is_called(scene, name)));
         match in_gallery {
             Some(index) => Self::Gallery(index),
             None => Self::File(address.to_owned()),
@@ -294,10 +297,12 @@ pub fn list_scenes(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
         } else {
             let source = SceneSource::from_address(path);
             if matches!(&source, SceneSource::File(path) if fs::symlink_metadata(path).is_err()) {
-                problems.push(format!(
-                    "{}: no such file; give an SVG file or a folder of them",
-                    path.display()
-                ));
+                problems.push(match path.to_str() {
+                    Some(address) if address.starts_with(GALLERY_PREFIX) => {
+                        format!("{address}: no such scene in the gallery; without a path it opens, and G shows all")
+                    }
+                    _ => format!("{}: no such file; give an SVG file or a folder of them", path.display()),
+                });
                 continue;
             }
             let label = match path.file_name() {
@@ -386,6 +391,22 @@ fn digits(text: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scenes_of_the_gallery_have_their_names_with_and_without_ending() {
+        let of = |address: &str| SceneSource::from_address(Path::new(address));
+        let whole = of("gallery:basic/test4.svg");
+        assert!(matches!(whole, SceneSource::Gallery(_)), "{whole:?}");
+        assert_eq!(of("gallery:basic/test4"), whole, "as the README speaks of it");
+        for other in ["basic/test4.svg", "gallery:basic", "gallery:basic/test4.svg.svg"] {
+            assert_eq!(of(other), SceneSource::File(other.into()), "a path");
+        }
+        let (scenes, problems) = list_scenes(&["gallery:study".into()]);
+        assert!(
+            scenes.is_empty() && problems[0].contains("no such scene in the gallery"),
+            "{problems:?}"
+        );
+    }
 
     #[test]
     fn natural_order_counts() {

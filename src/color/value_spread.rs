@@ -112,10 +112,10 @@ impl ValueLimits {
 }
 
 impl<S: Simd> ValueSpread<S> {
-    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` says the mean
-    /// squares of how far the values are from their mean, where these matter.
+    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` says between
+    /// what the mean squares lie of how far the values are from their mean, where these matter.
     #[inline(always)]
-    pub(crate) fn bytes_of_light(self, simd: S, squares: impl FnOnce() -> f64x8<S>) -> (u64x8<S>, u64) {
+    pub(crate) fn bytes_of_light(self, simd: S, squares: impl FnOnce() -> [f64x8<S>; 2]) -> (u64x8<S>, u64) {
         let SpreadLimits { off, most_bent, .. } = self.limits;
         if most_bent < MUCH {
             let (bytes, is_one) = bytes_between(simd, [self.mean - off, self.mean + (off + most_bent)]);
@@ -137,9 +137,10 @@ impl<S: Simd> ValueSpread<S> {
         (bytes, certain & is_one)
     }
 
-    /// The ends of the value whose light is the mean light; `squares` are the mean squares of how far the values are from their mean.
+    /// The ends of the value whose light is the mean light; between `squares` lie the mean squares of how far the values are from their
+    /// mean.
     #[inline(always)]
-    pub(crate) fn ends_of_light(self, simd: S, squares: f64x8<S>) -> Ends<S> {
+    pub(crate) fn ends_of_light(self, simd: S, squares: [f64x8<S>; 2]) -> Ends<S> {
         let Self { mean, limits } = self;
         let zero = f64x8::splat(simd, 0.0);
         let (least, most) = if limits.most_bent < LITTLE {
@@ -148,11 +149,12 @@ impl<S: Simd> ValueSpread<S> {
             let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
             let step = f64x8::splat(simd, SLOPE) / base;
             // The second derivative is the power 0.4: of `1 - x` that is at least `1 - x`, and of `1 + x` at most `1 + 0.4 x`.
-            let (x, bent) = (step * limits.widest, squares * step * (1.4 / 2.0));
+            let (x, half) = (step * limits.widest, step * (1.4 / 2.0));
+            let (bent, most_bent) = (squares[0] * half, squares[1] * half);
             let least = (bent - bent * x).max(zero) * (f64x8::splat(simd, 1.0) - step * bent).max(zero);
             // Below, the curve is a straight line.
             let is_curved = mean.simd_gt(f64x8::splat(simd, BEND));
-            (is_curved.select(least, zero), bent + bent * x * 0.4)
+            (is_curved.select(least, zero), most_bent + most_bent * x * 0.4)
         };
         let certain = self.is_unclamped(simd) & self.is_smooth(simd);
         ([mean - limits.off + least, mean + limits.off + most], certain)
@@ -244,7 +246,7 @@ mod tests {
                 let found = dispatch!(level, simd => {
                     let number = |value| f64x8::splat(simd, value);
                     let spread = ValueSpread { mean: number(mean), limits: ValueLimits::STORED.within(reach) };
-                    let light = spread.bytes_of_light(simd, || number(squares));
+                    let light = spread.bytes_of_light(simd, || [number(squares); 2]);
                     [light, spread.bytes(simd)].map(|(bytes, mask)| (bytes.to_array(), mask))
                 });
                 for (i, ((bytes, mask), expected)) in found.into_iter().zip(expected).enumerate() {

@@ -64,7 +64,7 @@ fn bounds_with<S: Simd>(
             let values = shown.spread(k, [right, down], &limits);
             let ([least, most], of_channel) = if is_linear {
                 let squares = spread.squares_along(simd, [shown.planes.dx[k], shown.planes.dy[k]]);
-                values.ends_of_light(simd, squares)
+                values.ends_of_light(simd, [squares; 2])
             } else {
                 values.ends(simd)
             };

@@ -283,6 +283,10 @@ impl TriangleScan {
     /// Notes the pixels of a row that it may touch, with the values of the edges there.
     #[inline(always)]
     fn note(&self, xs: Span, y: i32, found: &mut FoundPixels) {
+        if xs.is_empty() {
+            // An empty span may start anywhere, where no edge has a value.
+            return;
+        }
         let mut values = self.values(xs.start, y);
         for x in xs.start..xs.end {
             let xs = Span { start: x, end: x + 1 };
@@ -411,5 +415,95 @@ impl LatticeEdge {
             least: all_right.min(0) + all_down.min(0),
             most: all_right.max(0) + all_down.max(0),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+    use glam::DVec2;
+
+    use super::*;
+    use crate::raster::sampling::positions::SamplePositions;
+    use crate::raster::{SamplePattern, SampleRate, Seed};
+    use crate::simd;
+
+    /// Around a tile: on a lattice full of ties, anywhere, or as far away as triangles reach.
+    fn triangle(u: &mut Unstructured<'_>, rect: SpanRect) -> Result<[DVec2; 3]> {
+        let kind = u.int_in_range(0..=9)?;
+        let mut at = |span: Span| -> Result<f64> {
+            Ok(match kind {
+                0 => f64::from(u.int_in_range(-24_576..=40_960)?),
+                1..=5 => f64::from(u.int_in_range((span.start - 4) * 2..=(span.end + 4) * 2)?) / 2.0,
+                _ => f64::from(u.int_in_range((span.start - 4) * 1000..=(span.end + 4) * 1000)?) / 1000.0,
+            })
+        };
+        let mut point = || -> Result<DVec2> { Ok(DVec2::new(at(rect.x)?, at(rect.y)?)) };
+        Ok([point()?, point()?, point()?])
+    }
+
+    #[test]
+    fn triangles_are_covered_as_one_by_one_on_every_level() {
+        let grid = SubpixelGrid::fine();
+        let (mut parts, mut wholes, mut inside) = (0_u32, 0_u32, 0_u32);
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let pattern = *u.choose(&SamplePattern::ALL)?;
+            let rates: &[u32] = if pattern.needs_square() {
+                &[1, 4, 16, 64]
+            } else {
+                &[1, 3, 16, 33, 64]
+            };
+            let rate = SampleRate::new(*u.choose(rates)?).expect("a rate");
+            let positions = SamplePositions::new(pattern, rate, Seed::default());
+            let mut lanes = SampleLanes::new(positions.clone()).expect("few samples");
+            let mut side = || -> Result<Span> {
+                let start = u.int_in_range(0..=300)?;
+                let end = start + u.int_in_range(1..=32)?;
+                Ok(Span { start, end })
+            };
+            let rect = SpanRect { x: side()?, y: side()? };
+            let points = triangle(u, rect)?;
+            let Some(scan) = TriangleScan::new(points.map(|point| grid.snap(point)), rect, grid, rules) else {
+                return Ok(());
+            };
+            let mut expected = Vec::new();
+            for y in rect.y.start..rect.y.end {
+                for x in rect.x.start..rect.x.end {
+                    let (here, mut memory) = (scan.values(x, y), Vec::new());
+                    let places = positions.of_pixel([x, y], &mut memory);
+                    let is_inside = |place: &Position| {
+                        let gains = scan.gains(*place);
+                        here.iter().zip(gains).all(|(here, gain)| here + gain >= 0)
+                    };
+                    let bits = places.iter().map(is_inside).map(u64::from);
+                    expected.push((0..).zip(bits).map(|(sample, bit)| bit << sample).sum::<u64>());
+                }
+            }
+            for (name, level) in simd::tested() {
+                let mut found = FoundPixels::default();
+                dispatch!(level, simd => scan.find(simd, &mut lanes, &mut found));
+                let mut masks = vec![0; expected.len()];
+                for FoundRun { y, xs, bits } in found.runs() {
+                    inside += u32::from(xs.end - xs.start > 1);
+                    for x in xs.start..xs.end {
+                        let at = (y - rect.y.start) * (rect.x.end - rect.x.start) + x - rect.x.start;
+                        let mask: &mut u64 = &mut masks[usize::try_from(at).expect("in the tile")];
+                        assert_eq!(*mask, 0, "{name}: pixel {x}, {y} comes once");
+                        *mask = *bits;
+                    }
+                }
+                assert_eq!(masks, expected, "{name}: {points:?}, {rect:?}, {pattern:?}, {rules:?}");
+                wholes += u32::from(masks.contains(&lanes.all()));
+                parts += u32::from(masks.iter().any(|bits| ![0, lanes.all()].contains(bits)));
+            }
+            Ok(())
+        })
+        .budget_ms(800);
+        assert!(
+            parts > 200 && wholes > 100 && inside > 100,
+            "{parts} tiles with parts of pixels, {wholes} with whole ones, {inside} spans known to be whole"
+        );
     }
 }

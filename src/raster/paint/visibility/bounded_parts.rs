@@ -5,8 +5,8 @@
 
 use crate::color::{SampleMean, SumBounds};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::paint::visibility::by_samples::SharedPixels;
 use crate::raster::paint::visibility::shading_queue::Fragment;
+use crate::raster::paint::visibility::shading_queue::SharedPixels;
 use crate::raster::surface_id::SurfaceId;
 
 /// What is known of the pixels of a tile that wait for their sums.

@@ -12,7 +12,7 @@ use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::bounded_parts::BoundedParts;
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
-use crate::raster::paint::visibility::shading_queue::Fragment;
+use crate::raster::paint::visibility::shading_queue::{Fragment, SharedPixels};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
 use crate::raster::sampling::positions::{Position, SamplePositions};
@@ -43,14 +43,6 @@ pub(super) struct TileSamples<'s> {
     pub(super) positions: &'s SamplePositions,
     pub(super) mean: &'s SampleMean,
     pub(super) grid: SampleGrid,
-}
-
-/// The pixels of a tile that several surfaces share: their places, and what their samples add up to as far as it is known.
-#[derive(Debug)]
-pub(super) struct SharedPixels<'q> {
-    pub(super) places: &'q [[u16; 2]],
-    pub(super) sums: &'q mut [[u32; 4]],
-    pub(super) lights: &'q mut [Light],
 }
 
 /// The samples of some fragments of a primitive.

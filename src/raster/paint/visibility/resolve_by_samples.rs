@@ -8,11 +8,11 @@
 use crate::color::{Light, LightResolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
-use crate::raster::paint::visibility::by_samples::{BySamples, SharedPixels, TOGETHER, TileSamples};
+use crate::raster::paint::visibility::by_samples::{BySamples, TOGETHER, TileSamples};
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::paint::visibility::resolve::each_shared;
-use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
+use crate::raster::paint::visibility::shading_queue::{ShadingQueue, SharedPixels, ToShade};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;

@@ -30,6 +30,14 @@ pub(crate) struct ShadingQueue {
     parts: Vec<(SurfaceId, u16, u64)>,
 }
 
+/// The pixels of a tile that several surfaces share: their places, and what their samples add up to as far as it is known.
+#[derive(Debug)]
+pub(crate) struct SharedPixels<'q> {
+    pub(crate) places: &'q [[u16; 2]],
+    pub(crate) sums: &'q mut [[u32; 4]],
+    pub(crate) lights: &'q mut [Light],
+}
+
 /// What is to be shaded, as it was found, row by row, each with the primitive that it shows.
 #[derive(Debug, Default)]
 struct Found {

@@ -312,10 +312,15 @@ impl Shade for GradientShader<'_> {
             .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
     }
 
-    fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+    fn part_bounds<'p>(
+        &self,
+        parts: impl FnOnce() -> PlacedParts<'p>,
+        mean: &SampleMean,
+        bounds: &mut [SumBounds],
+    ) -> bool {
         let colors = self.line_colors();
         if let Some(colors) = colors {
-            colors.part_bounds(parts, mean, bounds);
+            colors.part_bounds(parts(), mean, bounds);
         }
         colors.is_some()
     }

@@ -85,8 +85,11 @@ pub(super) trait Shade {
     }
 
     /// Between what the samples of parts of pixels add up to with what is painted over them, where that is told apart by little more
-    /// than rounding; whether it is. The triangle must be opaque.
-    fn part_bounds(&self, _: PlacedParts<'_>, _: &SampleMean, _: &mut [SumBounds]) -> bool {
+    /// than rounding; whether it is. Only then their samples have to be placed. The triangle must be opaque.
+    fn part_bounds<'p>(&self, _: impl FnOnce() -> PlacedParts<'p>, _: &SampleMean, _: &mut [SumBounds]) -> bool
+    where
+        Self: Sized,
+    {
         false
     }
 

@@ -267,8 +267,13 @@ impl<'a> Shader<'a> {
     }
 
     /// Between what the samples of parts of pixels add up to with what is painted over them, where that is told apart by little more
-    /// than rounding; whether it is. The triangle must be opaque.
-    pub(crate) fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+    /// than rounding; whether it is. Only then their samples have to be placed. The triangle must be opaque.
+    pub(crate) fn part_bounds<'p>(
+        &self,
+        parts: impl FnOnce() -> PlacedParts<'p>,
+        mean: &SampleMean,
+        bounds: &mut [SumBounds],
+    ) -> bool {
         self.centres.is_none() && ask!(&self.any, AnyShader, shader => shader.part_bounds(parts, mean, bounds))
     }
 

@@ -137,10 +137,15 @@ impl Shade for VertexShader {
             .is_some_and(|colors| colors.bounded(pixels, mean, values, open))
     }
 
-    fn part_bounds(&self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) -> bool {
+    fn part_bounds<'p>(
+        &self,
+        parts: impl FnOnce() -> PlacedParts<'p>,
+        mean: &SampleMean,
+        bounds: &mut [SumBounds],
+    ) -> bool {
         let colors = self.plane_colors();
         if let Some(colors) = colors {
-            colors.part_bounds(parts, mean, bounds);
+            colors.part_bounds(parts(), mean, bounds);
         }
         colors.is_some()
     }

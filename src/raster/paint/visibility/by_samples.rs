@@ -153,8 +153,25 @@ impl SampleShades {
         let Some((lowest, tints)) = shader.tinted() else {
             return false;
         };
-        self.whole.clear();
-        self.whole.extend(places);
+        let parts = || {
+            self.whole.clear();
+            self.whole.extend(places);
+            self.sum_places(positions, grid, masks);
+            let pixels = Pixels {
+                grid,
+                places: &self.whole,
+            };
+            PlacedParts {
+                pixels,
+                sums: &self.sums,
+                tints,
+            }
+        };
+        lowest.part_bounds(parts, mean, bounds)
+    }
+
+    /// Finds what the places of some samples of each pixel of `whole` add up to.
+    fn sum_places(&mut self, positions: &SamplePositions, grid: SampleGrid, masks: &[(u16, u64)]) {
         self.sums.clear();
         if positions.are_same() {
             let sums = masks
@@ -166,15 +183,6 @@ impl SampleShades {
             let (sums, inside) = (&mut self.sums, self.inside.chunks_exact(positions.count()));
             dispatch!(simd::level(), simd => add_sums(simd, inside.zip(masks), sums));
         }
-        let parts = PlacedParts {
-            pixels: Pixels {
-                grid,
-                places: &self.whole,
-            },
-            sums: &self.sums,
-            tints,
-        };
-        lowest.part_bounds(parts, mean, bounds)
     }
 
     /// Finds where the samples of the pixels of `whole` lie.

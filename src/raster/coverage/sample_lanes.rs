@@ -124,26 +124,28 @@ impl SampleLanes {
             return;
         }
         self.missing.clear();
-        self.random.clear();
         // More would take the place of the first ones.
         for pixel in pixels.take(KEPT) {
             let at = kept_at(pixel);
             if self.pixels[at] != pixel {
                 self.pixels[at] = pixel;
                 self.missing.push(at);
-                self.random.push(self.positions.random(pixel));
             }
         }
         if self.missing.is_empty() {
             return;
         }
         self.memory.clear();
-        self.positions.add(&self.random, &mut self.memory);
+        let missing = self.missing.iter().map(|at| self.pixels[*at]);
+        self.positions.add(missing, &mut self.random, &mut self.memory);
         let blocks = self.count.div_ceil(TOGETHER);
         for (at, places) in self.missing.iter().zip(self.memory.chunks_exact(self.count)) {
             let kept = &mut self.kept[at * blocks..][..blocks];
             let (full, rest) = places.as_chunks();
-            kept[..full.len()].copy_from_slice(full);
+            // Not as a slice, which would be a call.
+            for (kept, full) in kept.iter_mut().zip(full) {
+                *kept = *full;
+            }
             if let Some(last) = kept.get_mut(full.len()) {
                 last[..rest.len()].copy_from_slice(rest);
             }

@@ -59,13 +59,31 @@ impl PlaceSums {
         let mut sums = Self::default();
         for (first, places) in (0..u64::BITS).step_by(TOGETHER).zip(places.chunks(TOGETHER)) {
             let bits = mask >> first & ((1 << TOGETHER) - 1);
-            let mut all = [[0; 2]; TOGETHER];
-            if let Some(places) = places.first_chunk() {
-                all = *places;
-            } else {
-                all[..places.len()].copy_from_slice(places);
-            }
-            sums = sums.plus(Self::of_sixteen(simd, &all, bits));
+            sums = sums.plus(Self::of_sixteen(simd, &sixteen(places), bits));
+        }
+        sums
+    }
+
+    /// Of all samples.
+    #[inline(always)]
+    pub(crate) fn of_all<S: Simd>(simd: S, places: &[Position]) -> Self {
+        let mut sums = Self::default();
+        for places in places.chunks(TOGETHER) {
+            let bits = (1 << places.len()) - 1;
+            sums = sums.plus(Self::of_sixteen(simd, &sixteen(places), bits));
+        }
+        sums
+    }
+
+    /// The columns and rows of all samples alone.
+    #[inline(always)]
+    pub(crate) fn places_of_all<S: Simd>(simd: S, places: &[Position]) -> [u32; 2] {
+        let mut sums = [0; 2];
+        for places in places.chunks(TOGETHER) {
+            // Those that are made up lie at zero.
+            let (first, second) = u8x32::from_slice(simd, sixteen(places).as_flattened()).widen();
+            let both = sum(first.combine(second).bitcast());
+            sums = [sums[0] + (both & 0xFFFF), sums[1] + (both >> 16)];
         }
         sums
     }
@@ -89,6 +107,17 @@ impl PlaceSums {
             ],
         }
     }
+}
+
+/// The places of up to sixteen samples, and zeros.
+#[inline(always)]
+fn sixteen(places: &[Position]) -> [Position; TOGETHER] {
+    if let Some(places) = places.first_chunk() {
+        return *places;
+    }
+    let mut all = [[0; 2]; TOGETHER];
+    all[..places.len()].copy_from_slice(places);
+    all
 }
 
 #[inline(always)]
@@ -152,6 +181,15 @@ mod tests {
                     let found = dispatch!(level, simd => PlaceSums::of_masked(simd, places, mask));
                     assert_eq!(found, expected, "{name}: {mask:b} of {places:?}");
                 }
+            }
+            let all = places
+                .iter()
+                .fold(PlaceSums::default(), |sums, place| sums.plus(PlaceSums::of(*place)));
+            for (name, level) in simd::tested() {
+                let found = dispatch!(level, simd => {
+                    (PlaceSums::of_all(simd, &places), PlaceSums::places_of_all(simd, &places))
+                });
+                assert_eq!(found, (all, all.places), "{name}: all of {places:?}");
             }
             Ok(())
         })

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::sampling::pattern::Seed;
-use crate::raster::sampling::pattern::arrange::Place;
 pub(crate) use crate::raster::sampling::pattern::arrange::Position;
+use crate::raster::sampling::pattern::arrange::{Place, number_of};
 use crate::raster::{SamplePattern, SampleRate};
 
 /// Where the samples of each pixel lie.
@@ -72,14 +72,25 @@ impl SamplePositions {
         if !self.same.is_empty() {
             return &self.same;
         }
+        let mut random = [self.number_of([x, y])];
+        self.own.random(&mut random, self.seed);
         memory.clear();
-        self.own.place(&[self.random([x, y])], memory);
+        self.own.place(&random, memory);
         memory
     }
 
-    /// Adds where the samples of pixels lie, one pixel after the other, by these [`SamplePositions::random`] bits of each.
-    pub(crate) fn add(&self, pixels: &[u64], places: &mut Vec<Position>) {
-        self.own.place(pixels, places);
+    /// Adds where the samples of pixels lie, one pixel after the other, by their columns and rows in what is painted; `random` is
+    /// overwritten.
+    pub(crate) fn add(
+        &self,
+        pixels: impl Iterator<Item = [i32; 2]>,
+        random: &mut Vec<u64>,
+        places: &mut Vec<Position>,
+    ) {
+        random.clear();
+        random.extend(pixels.map(|pixel| self.number_of(pixel)));
+        self.own.random(random, self.seed);
+        self.own.place(random, places);
     }
 
     /// Between what the mean column of the samples of any pixel lies, and the mean row.
@@ -87,11 +98,11 @@ impl SamplePositions {
         self.own.mean_range()
     }
 
-    /// What places the samples of a pixel where each has its own, by its column and row in what is painted.
+    /// The number of a pixel, by its column and row in what is painted.
     #[inline]
-    pub(crate) fn random(&self, [x, y]: [i32; 2]) -> u64 {
-        // A pixel of the frame has the same ones however much is painted around it.
-        self.own.random([x - self.margin, y - self.margin], self.seed)
+    fn number_of(&self, [x, y]: [i32; 2]) -> u64 {
+        // A pixel of the frame has the same one however much is painted around it.
+        number_of([x - self.margin, y - self.margin])
     }
 }
 

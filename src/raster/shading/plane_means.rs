@@ -15,6 +15,7 @@ use fearless_simd::{Simd, dispatch, f64x8, u64x8};
 use crate::color::{Premultiplied16, SampleMean, SpreadLimits, ValueLimits, ValueSpread};
 use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
+use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
 use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word};
@@ -90,16 +91,19 @@ fn means_with<S: Simd>(
     let planes = colors.planes;
     let shown = TintedPlanes::new(planes, placed.tints);
     let limits = shown.spread_limits(side);
-    let mut spread = PlaceSpreads::of_all(placed.inside(0));
+    let count = u32::try_from(placed.count).unwrap_or(0);
+    let mut spread = PlaceSpreads::of_all(simd, placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
         let at = block * LANES;
         let places = &placed.pixels.places[at..at + values.len()];
         if !placed.are_same() {
             for i in 0..places.len() {
-                spread.set_mean(i, placed.inside(at + i));
-                // What is stored does not depend on it.
+                let inside = placed.inside(at + i);
+                // What is stored does not depend on squares.
                 if is_linear {
-                    spread.set_squares(i, placed.inside(at + i));
+                    spread.set(i, &PlaceSums::of_all(simd, inside));
+                } else {
+                    spread.set_mean(i, count, PlaceSums::places_of_all(simd, inside));
                 }
             }
         }
@@ -279,10 +283,10 @@ impl PlaceSpreads {
     };
 
     /// Of samples that lie there in every pixel.
-    fn of_all(places: &[Position]) -> Self {
+    #[inline(always)]
+    fn of_all<S: Simd>(simd: S, places: &[Position]) -> Self {
         let mut spread = Self::NONE;
-        spread.set_mean(0, places);
-        spread.set_squares(0, places);
+        spread.set(0, &PlaceSums::of_all(simd, places));
         spread.mean = spread.mean.map(|[first, ..]| [first; LANES]);
         spread.squares = spread.squares.map(|[first, ..]| [first; LANES]);
         spread
@@ -298,34 +302,25 @@ impl PlaceSpreads {
             + f64x8::simd_from(simd, *yy) * (dy * dy)
     }
 
-    /// In the pixel of a lane.
+    /// In the lane of a pixel, or of a part of one, of whose samples this is known.
     #[inline(always)]
-    fn set_mean(&mut self, lane: usize, places: &[Position]) {
-        let mut sums = [0_u32; 2];
-        for [column, row] in places {
-            sums[0] += u32::from(*column);
-            sums[1] += u32::from(*row);
-        }
-        let per_sample = 1.0 / places.len().max(1) as f64;
-        self.mean[0][lane] = f64::from(sums[0]) * per_sample;
-        self.mean[1][lane] = f64::from(sums[1]) * per_sample;
+    pub(super) fn set(&mut self, lane: usize, sums: &PlaceSums) {
+        self.set_mean(lane, sums.count, sums.places);
+        let per_sample = 1.0 / f64::from(sums.count.max(1));
+        let mean = |sum: u32| f64::from(sum) * per_sample;
+        let [x, y] = [self.mean[0][lane], self.mean[1][lane]];
+        let [xx, xy, yy] = sums.squares;
+        self.squares[0][lane] = mean(xx) - x * x;
+        self.squares[1][lane] = mean(xy) - x * y;
+        self.squares[2][lane] = mean(yy) - y * y;
     }
 
-    /// The same, once the mean is known.
+    /// The mean alone.
     #[inline(always)]
-    fn set_squares(&mut self, lane: usize, places: &[Position]) {
-        let mut sums = [0_u32; 3];
-        for [column, row] in places {
-            let (x, y) = (u32::from(*column), u32::from(*row));
-            sums[0] += x * x;
-            sums[1] += x * y;
-            sums[2] += y * y;
-        }
-        let per_sample = 1.0 / places.len().max(1) as f64;
-        let [x, y] = [self.mean[0][lane], self.mean[1][lane]];
-        self.squares[0][lane] = f64::from(sums[0]) * per_sample - x * x;
-        self.squares[1][lane] = f64::from(sums[1]) * per_sample - x * y;
-        self.squares[2][lane] = f64::from(sums[2]) * per_sample - y * y;
+    fn set_mean(&mut self, lane: usize, count: u32, [columns, rows]: [u32; 2]) {
+        let per_sample = 1.0 / f64::from(count.max(1));
+        self.mean[0][lane] = f64::from(columns) * per_sample;
+        self.mean[1][lane] = f64::from(rows) * per_sample;
     }
 }
 

@@ -86,18 +86,3 @@ fn bounds_with<S: Simd>(
         }
     }
 }
-
-impl PlaceSpreads {
-    /// In the lane of a part.
-    #[inline(always)]
-    fn set(&mut self, lane: usize, sums: &PlaceSums) {
-        let per_sample = 1.0 / f64::from(sums.count.max(1));
-        let mean = |sum: u32| f64::from(sum) * per_sample;
-        let ([x, y], [xx, xy, yy]) = (sums.places, sums.squares);
-        let (x, y) = (mean(x), mean(y));
-        (self.mean[0][lane], self.mean[1][lane]) = (x, y);
-        self.squares[0][lane] = mean(xx) - x * x;
-        self.squares[1][lane] = mean(xy) - x * y;
-        self.squares[2][lane] = mean(yy) - y * y;
-    }
-}

@@ -60,7 +60,6 @@ pub(super) struct SampleShades {
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
     inside: Vec<Position>,
     random: Vec<u64>,
-    memory: Vec<Position>,
     /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
     by_mask: PlaceSumsByMask,
     sums: Vec<PlaceSums>,
@@ -97,16 +96,26 @@ impl BySamples {
 }
 
 impl SampleShades {
-    /// Adds the samples of a pixel that a fragment of a tile holds some of; `grid` counts the tile's.
-    #[inline]
-    fn gather(&mut self, place: [u16; 2], (first, mask): (u16, u64), positions: &SamplePositions, grid: SampleGrid) {
-        let corner = first_point(place, grid);
-        let of_pixel = positions.of_pixel(pixel_of(place, grid), &mut self.memory);
-        let mut rest = mask;
-        while rest != 0 {
-            let sample = usize::from(first) + rest.trailing_zeros() as usize;
-            self.points.push(point_at(corner, of_pixel[sample]));
-            rest &= rest - 1;
+    /// Finds the samples of fragments, each of one of the pixels of `whole`; `grid` counts the tile's.
+    fn gather(&mut self, fragments: &[Fragment], positions: &SamplePositions, grid: SampleGrid) {
+        self.place(positions, grid);
+        let count = fragments.iter().map(|part| part.mask.count_ones() as usize).sum();
+        self.points.clear();
+        self.points.resize(count, [0; 2]);
+        let mut points = &mut self.points[..];
+        // In every pixel the places of the first one where these are the same.
+        let samples = positions.count();
+        let step = if positions.are_same() { 0 } else { samples };
+        for ((i, Fragment { first, mask, .. }), place) in fragments.iter().enumerate().zip(&self.whole) {
+            let corner = first_point(*place, grid);
+            let of_pixel = &self.inside[i * step..][..samples][usize::from(*first)..];
+            let (of_fragment, others) = points.split_at_mut(mask.count_ones() as usize);
+            points = others;
+            let mut rest = *mask;
+            for point in of_fragment {
+                *point = point_at(corner, of_pixel[rest.trailing_zeros() as usize]);
+                rest &= rest - 1;
+            }
         }
     }
 
@@ -118,11 +127,10 @@ impl SampleShades {
         fragments: &[Fragment],
         pixels: &mut SharedPixels<'_>,
     ) -> usize {
-        self.points.clear();
-        for Fragment { first, pixel, mask } in fragments {
-            let place = pixels.places[*pixel as usize];
-            self.gather(place, (*first, *mask), samples.positions, samples.grid);
-        }
+        self.whole.clear();
+        self.whole
+            .extend(fragments.iter().map(|part| pixels.places[part.pixel as usize]));
+        self.gather(fragments, samples.positions, samples.grid);
         self.shade(shader, samples.grid);
         let mut colors = &self.colors[..self.points.len()];
         for Fragment { pixel, mask, .. } in fragments {
@@ -188,11 +196,9 @@ impl SampleShades {
     /// Finds where the samples of the pixels of `whole` lie.
     fn place(&mut self, positions: &SamplePositions, grid: SampleGrid) {
         if !positions.are_same() {
-            self.random.clear();
-            self.random
-                .extend(self.whole.iter().map(|place| positions.random(pixel_of(*place, grid))));
+            let pixels = self.whole.iter().map(|place| pixel_of(*place, grid));
             self.inside.clear();
-            positions.add(&self.random, &mut self.inside);
+            positions.add(pixels, &mut self.random, &mut self.inside);
         }
     }
 

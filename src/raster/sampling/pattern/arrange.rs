@@ -1,6 +1,11 @@
 //! What an arrangement of samples is: it places the samples of one pixel after the other, on a lattice of points: 256 of them
 //! along each side of a pixel, or for the grid one for each of its columns.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -18,9 +23,11 @@ pub(in crate::raster::sampling) trait Arrange: Sync {
 
 /// Places the samples of one pixel after the other.
 pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
-    /// The random bits of the pixel in this column and row.
-    fn random(&self, [x, y]: [i32; 2], seed: u64) -> u64 {
-        mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ seed)
+    /// Makes the random bits of pixels from their numbers, see [`number_of`].
+    fn random(&self, pixels: &mut [u64], seed: u64) {
+        for pixel in pixels {
+            *pixel = mix(*pixel ^ seed);
+        }
     }
 
     /// Adds the places of the samples of pixels, one pixel after the other: each has random bits of its own.
@@ -30,6 +37,12 @@ pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
     fn mean_range(&self) -> [f64; 2] {
         [0.0, f64::from(u8::MAX)]
     }
+}
+
+/// The column and the row of a pixel in one number, from which [`Place::random`] makes bits.
+#[inline]
+pub(in crate::raster::sampling) fn number_of([x, y]: [i32; 2]) -> u64 {
+    u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32
 }
 
 /// The random bits of pixels, each with new places for `count` samples.
@@ -42,6 +55,17 @@ pub(super) fn with_places<'p>(
     let first = places.len();
     places.resize(first + pixels.len() * count, [0; 2]);
     pixels.iter().copied().zip(places[first..].chunks_exact_mut(count))
+}
+
+/// Takes as many of these places as there is room for.
+#[inline(always)]
+pub(super) fn take_places<const N: usize>(found: &[Position; N], places: &mut [Position]) {
+    // Of a length that is known they are moved at once, not by a call.
+    if let Ok(places) = <&mut [Position; N]>::try_from(&mut *places) {
+        *places = *found;
+    } else {
+        places.copy_from_slice(&found[..places.len()]);
+    }
 }
 
 /// Places that need no random bits.

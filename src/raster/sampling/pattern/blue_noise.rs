@@ -14,7 +14,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::arrange::{Arrange, Place, Position, with_places};
+use super::arrange::{Arrange, Place, Position, take_places, with_places};
 use super::random_bits::halves;
 use super::sobol::point;
 use crate::raster::sampling::rate::SampleRate;
@@ -22,6 +22,8 @@ use crate::raster::sampling::rate::SampleRate;
 /// The tile's side, a power of two.
 const SIDE: usize = 64;
 const CELLS: usize = SIDE * SIDE;
+/// Points that are shifted together.
+const TOGETHER: usize = 16;
 /// The points of a full tile, and those that it is begun with.
 const ALL: u16 = 1 << 12;
 const FIRST: u16 = ALL / 10;
@@ -38,33 +40,50 @@ pub(super) struct BlueNoise;
 /// The points before they are shifted.
 #[derive(Debug)]
 struct Points {
-    points: Vec<Position>,
+    count: usize,
+    blocks: Vec<[Position; TOGETHER]>,
     tile: &'static [u16; CELLS],
 }
 
 impl Arrange for BlueNoise {
     fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
         let top = |part: u32| part.to_be_bytes()[0];
-        let points = (0..rate.samples()).map(|number| point(number).map(top)).collect();
-        Arc::new(Points { points, tile: &TILE })
+        let count = rate.samples() as usize;
+        let mut blocks = vec![[[0; 2]; TOGETHER]; count.div_ceil(TOGETHER)];
+        for (found, number) in blocks.as_flattened_mut().iter_mut().zip(0..rate.samples()) {
+            *found = point(number).map(top);
+        }
+        Arc::new(Points {
+            count,
+            blocks,
+            tile: &TILE,
+        })
     }
 }
 
 impl Place for Points {
     /// The shifts of a pixel, across in the lowest byte and down in the next.
-    fn random(&self, at: [i32; 2], seed: u64) -> u64 {
+    fn random(&self, pixels: &mut [u64], seed: u64) {
         let seeds = halves(seed);
-        // A seed is another part of the tile, which goes on for ever.
-        let [x, y] = [0, 1].map(|axis| at[axis].cast_unsigned().wrapping_add(seeds[axis]) as usize % SIDE);
-        let shift = |cell: usize| u64::from(self.tile[cell] >> 4);
-        shift(y * SIDE + x) | shift(x * SIDE + y) << 8
+        for pixel in pixels {
+            let at = halves(*pixel);
+            // A seed is another part of the tile, which goes on for ever.
+            let [x, y] = [0, 1].map(|axis| at[axis].wrapping_add(seeds[axis]) as usize % SIDE);
+            let shift = |cell: usize| u64::from(self.tile[cell] >> 4);
+            *pixel = shift(y * SIDE + x) | shift(x * SIDE + y) << 8;
+        }
     }
 
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
-        for (random, places) in with_places(pixels, self.points.len(), places) {
+        for (random, places) in with_places(pixels, self.count, places) {
             let [across, down, ..] = random.to_le_bytes();
-            for (place, [x, y]) in places.iter_mut().zip(&self.points) {
-                *place = [x.wrapping_add(across), y.wrapping_add(down)];
+            for (places, points) in places.chunks_mut(TOGETHER).zip(&self.blocks) {
+                let mut found = *points;
+                for [x, y] in &mut found {
+                    *x = x.wrapping_add(across);
+                    *y = y.wrapping_add(down);
+                }
+                take_places(&found, places);
             }
         }
     }
@@ -158,6 +177,7 @@ fn void_and_cluster(mut random: u64) -> Box<[u16; CELLS]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::sampling::pattern::arrange::number_of;
 
     /// The mean square of what the means over `side x side` cells are off the mean of all.
     fn of_blocks(side: usize, value: impl Fn(usize, usize) -> f64) -> f64 {
@@ -206,7 +226,9 @@ mod tests {
         let places = |at: [i32; 2], seed: u64| {
             let place = BlueNoise.prepare(SampleRate::new(7).expect("a rate"));
             let mut places = Vec::new();
-            place.place(&[place.random(at, seed)], &mut places);
+            let mut pixel = [number_of(at)];
+            place.random(&mut pixel, seed);
+            place.place(&pixel, &mut places);
             places
         };
         let first = places([0, 0], 5);

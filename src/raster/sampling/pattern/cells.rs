@@ -5,6 +5,10 @@
     reason = "a function that is not inlined into its dispatch loses the vector instructions"
 )]
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, u16x32};
+
+use super::arrange::Position;
 #[cfg(test)]
 use super::arrange::byte;
 use crate::geometry::subpixel::SubpixelGrid;
@@ -59,12 +63,16 @@ impl CellBlock {
 
     /// A point of each cell, by 16 random bits for each column and each row.
     #[inline(always)]
-    pub(super) fn anywhere(&self, random: &[u16; 2 * TOGETHER]) -> [u8; 2 * TOGETHER] {
-        let mut found = [0; 2 * TOGETHER];
-        for (i, found) in found.iter_mut().enumerate() {
-            let inside = (u32::from(random[i]) * u32::from(self.lengths[i])) >> 16;
-            [*found, ..] = (u32::from(self.starts[i]) + inside).to_le_bytes();
+    pub(super) fn anywhere<S: Simd>(&self, simd: S, random: u16x32<S>) -> [Position; TOGETHER] {
+        let (random, mut inside) = (random.to_array(), [0; 2 * TOGETHER]);
+        for (i, inside) in inside.iter_mut().enumerate() {
+            let [_, _, low, high] = (u32::from(random[i]) * u32::from(self.lengths[i])).to_le_bytes();
+            *inside = u16::from_le_bytes([low, high]);
         }
+        // Bytes are made in registers: two stores that one load reads again would make it wait.
+        let (first, second) = (u16x32::simd_from(simd, inside) + u16x32::simd_from(simd, self.starts)).split();
+        let mut found = [[0; 2]; TOGETHER];
+        first.narrow(second).store_slice(found.as_flattened_mut());
         found
     }
 }

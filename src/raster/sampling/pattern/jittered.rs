@@ -11,7 +11,7 @@ use std::sync::Arc;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32};
 
-use super::arrange::{Arrange, Place, Position, with_places};
+use super::arrange::{Arrange, Place, Position, take_places, with_places};
 use super::cells::{CellBlock, TOGETHER, cells, mean_range};
 use super::random_bits::hash_eight;
 use crate::raster::sampling::rate::SampleRate;
@@ -63,9 +63,7 @@ impl Jitter {
             let mut first = 0;
             for (cells, places) in self.cells.iter().zip(places.chunks_mut(TOGETHER)) {
                 let bits: u16x32<S> = hash_eight(simd, random, first).bitcast();
-                let found = cells.anywhere(&bits.to_array());
-                let (found, _) = found.as_chunks::<2>();
-                places.copy_from_slice(&found[..places.len()]);
+                take_places(&cells.anywhere(simd, bits), places);
                 first += 8;
             }
         }

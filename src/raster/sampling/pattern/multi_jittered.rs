@@ -9,9 +9,9 @@
 use std::sync::Arc;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, u16x16, u16x32, u32x4, u32x8, u32x16};
+use fearless_simd::{Simd, dispatch, u16x32, u32x4, u32x8, u32x16};
 
-use super::arrange::{Arrange, Place, Position, with_places};
+use super::arrange::{Arrange, Place, Position, take_places, with_places};
 use super::cells::{CellBlock, TOGETHER, cells, mean_range};
 use super::random_bits::{halves, hash_eight};
 use crate::raster::sampling::rate::SampleRate;
@@ -96,7 +96,7 @@ fn place_sixteen<S: Simd>(simd: S, pixels: &[u64], places: &mut Vec<Position>) {
         let upper = (row + u32x4::splat(simd, first)).combine(row + u32x4::splat(simd, second));
         let lower = (row + u32x4::splat(simd, third)).combine(row + u32x4::splat(simd, fourth));
         let starts: u16x32<S> = (corners + upper.combine(lower)).bitcast();
-        let inside = u16x32::simd_from(simd, bits(simd, random, 0)) >> (16 - WIDTH_BITS);
+        let inside = bits(simd, random, 0) >> (16 - WIDTH_BITS);
         let (low, high) = (starts + inside).split();
         let found: [u8; 2 * TOGETHER] = low.narrow(high).to_array();
         places.copy_from_slice(found.as_chunks::<2>().0);
@@ -147,8 +147,7 @@ impl Strata {
                         (i, j) = (0, j + 1);
                     }
                 }
-                let found = cells.anywhere(&bits(simd, random, first));
-                places.copy_from_slice(&found.as_chunks::<2>().0[..places.len()]);
+                take_places(&cells.anywhere(simd, bits(simd, random, first)), places);
             }
         }
     }
@@ -156,14 +155,10 @@ impl Strata {
 
 /// 16 random bits for the column and the row of each of [`TOGETHER`] samples from one on.
 #[inline(always)]
-fn bits<S: Simd>(simd: S, random: u64, first: u64) -> [u16; 2 * TOGETHER] {
-    let mut bits = [0; 2 * TOGETHER];
-    for (bits, first) in bits.chunks_exact_mut(TOGETHER).zip([first, first + 8]) {
-        let (low, high) = hash_eight(simd, random, first).split();
-        let lowest: u16x16<S> = low.narrow(high).bitcast();
-        lowest.store_slice(bits);
-    }
-    bits
+fn bits<S: Simd>(simd: S, random: u64, first: u64) -> u16x32<S> {
+    let (a, b) = hash_eight(simd, random, first).split();
+    let (c, d) = hash_eight(simd, random, first + 8).split();
+    a.narrow(b).combine(c.narrow(d)).bitcast()
 }
 
 /// Where numbers of `count` go in the permutations with these seeds: a hash of as many bits as are needed, again and again until

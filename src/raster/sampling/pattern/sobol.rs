@@ -14,7 +14,7 @@ use std::sync::Arc;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32, u32x16};
 
-use super::arrange::{Arrange, Place, Position, with_places};
+use super::arrange::{Arrange, Place, Position, take_places, with_places};
 use super::cells::{cells, mean_range};
 use super::random_bits::first_sixteen;
 use crate::raster::sampling::rate::SampleRate;
@@ -74,11 +74,7 @@ impl Points {
         for (random, places) in with_places(pixels, self.count, places) {
             let scramble = Scramble::new(simd, random);
             for (places, block) in places.chunks_mut(TOGETHER).zip(&self.blocks) {
-                let found = scramble.places(block);
-                match places.as_chunks_mut() {
-                    ([all], []) => *all = found,
-                    _ => places.copy_from_slice(&found[..places.len()]),
-                }
+                take_places(&scramble.places(block), places);
             }
         }
     }

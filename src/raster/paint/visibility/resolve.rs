@@ -128,29 +128,29 @@ impl VisibilityPainter<'_> {
             self.shade_samples(origin, block);
         } else {
             self.shade(origin, &mut Whole::Put(block));
-            self.put_shared(block);
+            self.put_shared(block, |_| true);
         }
         start.map(|start| start.elapsed()).unwrap_or_default()
     }
 
-    /// Puts the pixels that several surfaces share.
-    pub(super) fn put_shared(&self, block: &mut PixelBlock<'_>) {
-        for i in 0..self.unresolved.places.len() {
-            self.put_one(i, block);
-        }
-    }
-
-    /// Puts one of them, once all of its samples were added up.
+    /// Puts those of the pixels that several surfaces share, by their numbers, once all of their samples were added up.
     #[inline]
-    pub(super) fn put_one(&self, i: usize, block: &mut PixelBlock<'_>) {
+    pub(super) fn put_shared(&self, block: &mut PixelBlock<'_>, is_put: impl Fn(usize) -> bool) {
         let ShadingQueue {
             places, sums, lights, ..
         } = &self.unresolved;
-        let pixel = match &self.by_samples.mean {
-            SampleMean::Stored(resolver) => resolver.pixel(sums[i]),
-            SampleMean::Linear(resolver) => resolver.pixel(lights[i]),
-        };
-        block.put(places[i], pixel);
+        match &self.by_samples.mean {
+            SampleMean::Stored(resolver) => {
+                for (_, (place, sums)) in (0..).zip(places.iter().zip(sums)).filter(|(i, _)| is_put(*i)) {
+                    block.put(*place, resolver.pixel(*sums));
+                }
+            }
+            SampleMean::Linear(resolver) => {
+                for (_, (place, light)) in (0..).zip(places.iter().zip(lights)).filter(|(i, _)| is_put(*i)) {
+                    block.put(*place, resolver.pixel(*light));
+                }
+            }
+        }
     }
 
     /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.

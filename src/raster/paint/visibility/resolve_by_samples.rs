@@ -80,10 +80,10 @@ impl VisibilityPainter<'_> {
             }
         }
         if parts.is_empty() {
-            self.put_shared(block);
+            self.put_shared(block, |_| true);
         } else if parts.put_certain(&shared, mean, block) {
             self.shade_open(origin);
-            self.put_open(block);
+            self.put_shared(block, |i| self.by_samples.parts.is_open(i));
         }
     }
 
@@ -128,15 +128,6 @@ impl VisibilityPainter<'_> {
             };
             for fragments in open.chunks(TOGETHER) {
                 shades.add_fragments(&shader, samples, fragments, &mut shared);
-            }
-        }
-    }
-
-    /// Puts the pixels that bounds left open.
-    fn put_open(&self, block: &mut PixelBlock<'_>) {
-        for i in 0..self.unresolved.places.len() {
-            if self.by_samples.parts.is_open(i) {
-                self.put_one(i, block);
             }
         }
     }

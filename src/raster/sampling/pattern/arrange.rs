@@ -9,7 +9,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::raster::sampling::pattern::random_bits::mix;
+use crate::raster::sampling::pattern::random_bits::mix_all;
 use crate::raster::sampling::rate::SampleRate;
 
 /// Column and row of a sample inside its pixel, in points of the lattice.
@@ -25,9 +25,7 @@ pub(in crate::raster::sampling) trait Arrange: Sync {
 pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
     /// Makes the random bits of pixels from their numbers, see [`number_of`].
     fn random(&self, pixels: &mut [u64], seed: u64) {
-        for pixel in pixels {
-            *pixel = mix(*pixel ^ seed);
-        }
+        mix_all(pixels, seed);
     }
 
     /// Adds the places of the samples of pixels, one pixel after the other: each has random bits of its own.

@@ -6,7 +6,9 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, u64x8};
+use fearless_simd::{Simd, dispatch, u64x8};
+
+use crate::simd;
 
 /// What the bits of a pixel gain from number to number: `2^64` by the golden ratio.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -23,9 +25,32 @@ pub(in crate::raster::sampling) fn hash(pixel: u64, number: u64) -> u64 {
 pub(super) fn hash_eight<S: Simd>(simd: S, pixel: u64, first: u64) -> u64x8<S> {
     let steps = [1_u64, 2, 3, 4, 5, 6, 7, 8].map(|number| number.wrapping_mul(GOLDEN));
     let number = |value| u64x8::splat(simd, value);
-    let mut bits = u64x8::simd_from(simd, steps) + number(pixel.wrapping_add(first.wrapping_mul(GOLDEN)));
-    bits = (bits ^ bits >> 30) * number(FACTORS[0]);
-    bits = (bits ^ bits >> 27) * number(FACTORS[1]);
+    let first = number(pixel.wrapping_add(first.wrapping_mul(GOLDEN)));
+    mix_eight(simd, u64x8::simd_from(simd, steps) + first)
+}
+
+/// [`mix`] of each of these and of a seed.
+pub(super) fn mix_all(all: &mut [u64], seed: u64) {
+    dispatch!(simd::level(), simd => mix_all_with(simd, all, seed));
+}
+
+#[inline(always)]
+fn mix_all_with<S: Simd>(simd: S, all: &mut [u64], seed: u64) {
+    let (eights, rest) = all.as_chunks_mut();
+    for bits in eights {
+        let seeded = u64x8::simd_from(simd, *bits) ^ u64x8::splat(simd, seed);
+        *bits = mix_eight(simd, seeded).to_array();
+    }
+    for bits in rest {
+        *bits = mix(*bits ^ seed);
+    }
+}
+
+/// [`mix`] of eight at once.
+#[inline(always)]
+fn mix_eight<S: Simd>(simd: S, mut bits: u64x8<S>) -> u64x8<S> {
+    bits = (bits ^ bits >> 30) * u64x8::splat(simd, FACTORS[0]);
+    bits = (bits ^ bits >> 27) * u64x8::splat(simd, FACTORS[1]);
     bits ^ bits >> 31
 }
 
@@ -58,10 +83,7 @@ pub(super) fn halves(random: u64) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::dispatch;
-
     use super::*;
-    use crate::simd;
 
     #[test]
     fn eight_numbers_are_hashed_as_one_by_one() {
@@ -71,6 +93,24 @@ mod tests {
             for (name, level) in simd::tested() {
                 let found: [u64; 8] = dispatch!(level, simd => hash_eight(simd, pixel, first).to_array());
                 assert_eq!(found.to_vec(), expected, "{name}: {pixel:x} from {first}");
+            }
+            Ok(())
+        })
+        .budget_ms(100);
+    }
+
+    #[test]
+    fn many_are_mixed_as_one_by_one() {
+        arbtest::arbtest(|u| {
+            let all: Vec<u64> = (0..u.int_in_range(0..=30)?)
+                .map(|_| u.arbitrary())
+                .collect::<Result<_, _>>()?;
+            let seed = u.arbitrary()?;
+            let expected: Vec<u64> = all.iter().map(|bits| mix(bits ^ seed)).collect();
+            for (name, level) in simd::tested() {
+                let mut found = all.clone();
+                dispatch!(level, simd => mix_all_with(simd, &mut found, seed));
+                assert_eq!(found, expected, "{name}: {all:x?} of {seed:x}");
             }
             Ok(())
         })

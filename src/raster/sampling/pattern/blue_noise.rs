@@ -12,12 +12,21 @@
 //! 1993), the shifts are those of Georgiev and Fajardo ("Blue-noise dithered sampling", SIGGRAPH Talks 2016), the points those
 //! of Sobol's sequence, as many in each column and row when they are shifted.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use std::sync::{Arc, LazyLock};
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, u8x32, u16x16};
+
 use super::arrange::{Arrange, Place, Position, take_places, with_places};
-use super::random_bits::halves;
+use super::random_bits::{first_sixteen, halves};
 use super::sobol::point;
 use crate::raster::sampling::rate::SampleRate;
+use crate::simd;
 
 /// The tile's side, a power of two.
 const SIDE: usize = 64;
@@ -75,14 +84,18 @@ impl Place for Points {
     }
 
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+    }
+}
+
+impl Points {
+    #[inline(always)]
+    fn place_with<S: Simd>(&self, simd: S, pixels: &[u64], places: &mut Vec<Position>) {
         for (random, places) in with_places(pixels, self.count, places) {
-            let [across, down, ..] = random.to_le_bytes();
+            let shift: u8x32<S> = u16x16::splat(simd, first_sixteen(random)).bitcast();
             for (places, points) in places.chunks_mut(TOGETHER).zip(&self.blocks) {
-                let mut found = *points;
-                for [x, y] in &mut found {
-                    *x = x.wrapping_add(across);
-                    *y = y.wrapping_add(down);
-                }
+                let mut found = [[0; 2]; TOGETHER];
+                (u8x32::from_slice(simd, points.as_flattened()) + shift).store_slice(found.as_flattened_mut());
                 take_places(&found, places);
             }
         }

@@ -21,7 +21,7 @@
 //!                                    |                                       |
 //!                       +------------+-------------+                         |
 //!                       |                          |                         |
-//!                   pixel_rows              pixel_rows_4x4                   |
+//!                   pixel_rows               narrow_rows                     |
 //!                       |                          |                         |
 //!         covered: runs and masks        four masks in a word      covered: runs and masks
 //!                       |                          |                         |
@@ -60,9 +60,9 @@ pub(in crate::raster) mod free_positions_polygon;
 mod free_positions_triangle;
 pub(in crate::raster) mod mask8x8;
 pub(in crate::raster) mod mask8x8_simd;
+pub(in crate::raster) mod narrow_rows;
 pub(in crate::raster) mod outline_cache;
 pub(in crate::raster) mod pixel_rows;
-pub(in crate::raster) mod pixel_rows_4x4;
 pub(in crate::raster) mod polygon;
 pub(in crate::raster) mod polygon_rows;
 mod sample_lanes;

@@ -8,13 +8,13 @@ use crate::raster::coverage::area::shape_area::ShapeArea;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::free_positions::FreePositions;
+use crate::raster::coverage::narrow_rows::{TileRow, each_row};
 use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::pixel_rows::each_covered;
-use crate::raster::coverage::pixel_rows_4x4::{SIDE, TileRow, each_row};
 use crate::raster::coverage::polygon_rows::{RowScanner, RowSpans, SpanStore, Stored};
 use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline, Shape};
 use crate::raster::coverage::span_rows::{MAX_SIDE, MaskRows, StoredRows, TriangleRows};
-use crate::raster::span::{Span, SpanRect, scaled};
+use crate::raster::span::{Span, SpanRect, scaled, to_index};
 use crate::rules::Rules;
 
 /// Remembers the spans of outlines in the tile row at work.
@@ -106,18 +106,19 @@ impl ShapeCoverage {
         }
     }
 
-    /// As [`ShapeCoverage::each`] for a triangle or polygon on the grid where a pixel has 4 x 4 samples, by rows of pixels, without
-    /// a call for each.
+    /// As [`ShapeCoverage::each`] for a triangle or polygon on the grid where a pixel has 2 x 2 or 4 x 4 samples, by rows of
+    /// pixels, without a call for each.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-    pub(crate) fn each_row_of_four<S: Simd>(
+    pub(crate) fn each_narrow_row<S: Simd, const SIDE: usize>(
         &mut self,
         simd: S,
         shape: Shape<'_>,
         rect: SpanRect,
-        paint: impl FnMut(&TileRow<'_>),
+        paint: impl FnMut(&TileRow<'_, SIDE>),
     ) {
-        debug_assert_eq!(self.grid.side(), SIDE, "4 x 4 samples");
+        let side = self.grid.side();
+        debug_assert_eq!(to_index(side), SIDE, "samples along a side");
         if let Shape::Triangle(corners) = shape {
             return TriangleRows::of(
                 *corners,
@@ -128,7 +129,7 @@ impl ShapeCoverage {
                 |rows| each_row(simd, rows, rect, paint),
             );
         }
-        let mut rows = StoredRows::<4>::new(self.stored(shape, rect), SIDE, rect);
+        let mut rows = StoredRows::<SIDE>::new(self.stored(shape, rect), side, rect);
         each_row(simd, &mut rows, rect, paint);
     }
 

@@ -136,7 +136,7 @@ impl SpanRows for TriangleRows {
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn take(&mut self, batch: Batch<'_>) -> usize {
         let Self { walker, rows } = self;
-        let by_four = batch.side == 4;
+        let by_four = matches!(batch.side, 2 | 4);
         take_single(
             rows,
             batch,

@@ -56,6 +56,18 @@ pub(in crate::raster) fn joined([a, b, c, d]: [SurfaceId; PER_WORD]) -> u64 {
     u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48
 }
 
+/// The samples of a word that show the same as those of another one, a bit for each.
+#[inline]
+pub(in crate::raster) fn equal(word: u64, other: u64) -> u64 {
+    const LOW: u64 = 0x7FFF_7FFF_7FFF_7FFF;
+    let differ = word ^ other;
+    // The highest bit of each sample that is not zero, then the lowest one of those that are.
+    let other = ((differ & LOW) + LOW) | differ;
+    let same = !(other | LOW) >> 15;
+    // From bits 0, 16, 32 and 48 to bits 48 to 51; nothing else gets there.
+    same.wrapping_mul(0x0001_0002_0004_0008) >> 48 & 0xF
+}
+
 /// A word with the surfaces in `mask` changed; the others are unspecified.
 #[inline]
 pub(in crate::raster) fn changed(word: u64, mask: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) -> u64 {
@@ -76,4 +88,29 @@ pub(in crate::raster) fn changed(word: u64, mask: u64, change: &mut impl FnMut(S
 #[inline]
 pub(in crate::raster) fn spread(bits: u64) -> u64 {
     SPREAD_BITS[(bits & 0xF) as usize]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_samples_have_a_bit() {
+        arbtest::arbtest(|u| {
+            let mut word = || -> arbtest::arbitrary::Result<[SurfaceId; PER_WORD]> {
+                let mut one = || u.choose(&[0, 1, 0x7FFF, 0x8000, 0x8001, 0xFFFE, 0xFFFF]).copied();
+                Ok([one()?, one()?, one()?, one()?])
+            };
+            let (first, second) = (word()?, word()?);
+            let same = |i: usize| u64::from(first[i] == second[i]) << i;
+            let expected: u64 = (0..PER_WORD).map(same).sum();
+            assert_eq!(
+                equal(joined(first), joined(second)),
+                expected,
+                "{first:x?} and {second:x?}"
+            );
+            Ok(())
+        })
+        .budget_ms(100);
+    }
 }

@@ -9,7 +9,6 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Premultiplied16, Resolver};
 use crate::raster::binning::tile_command::{TileCommand, Work};
-use crate::raster::coverage::pixel_rows_4x4;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::layers::Compositing;
@@ -50,8 +49,9 @@ pub(crate) struct VisibilityPainter<'a> {
     pub(super) surfaces: SurfaceTable<'a>,
     pub(super) unresolved: ShadingQueue,
     pub(super) fragments: FragmentSums,
-    /// Memory for the values of pixels.
+    /// Memory for the values of pixels, and for the ends of the runs of each row.
     pub(super) values: Vec<u32>,
+    pub(super) run_ends: Vec<u64>,
     pub(super) by_samples: BySamples,
     pub(super) rounding: Rounding,
     crowds: Crowds,
@@ -72,6 +72,7 @@ impl<'a> VisibilityPainter<'a> {
             unresolved: ShadingQueue::default(),
             fragments: FragmentSums::default(),
             values: Vec::new(),
+            run_ends: Vec::new(),
             by_samples: BySamples::new(&context, positions),
             rounding: Rounding::Sums,
             crowds: Crowds::GivenUp,
@@ -137,36 +138,43 @@ impl<'a> VisibilityPainter<'a> {
 
     #[inline]
     fn opaque(&mut self, shape: Shape<'_>, surface: SurfaceId, shape_coverage: &mut ShapeCoverage) {
-        let by_four = self.has_four_rows(shape);
+        let narrow_side = self.narrow_side(shape);
         let tile = self.layers.top();
-        if matches!(shape, Shape::Tile) {
-            tile.cover(surface);
-        } else if by_four {
-            dispatch!(simd::level(), simd => opaque_four(simd, shape, shape_coverage, tile, surface));
-        } else {
-            shape_coverage.each(
+        match (shape, narrow_side) {
+            (Shape::Tile, _) => tile.cover(surface),
+            (_, Some(NarrowSide::Two)) => {
+                dispatch!(simd::level(), simd => opaque_rows::<_, 2>(simd, shape, shape_coverage, tile, surface));
+            }
+            (_, Some(NarrowSide::Four)) => {
+                dispatch!(simd::level(), simd => opaque_rows::<_, 4>(simd, shape, shape_coverage, tile, surface));
+            }
+            (_, None) => shape_coverage.each(
                 shape,
                 tile.rect,
                 #[inline(always)]
                 |y, covered| tile.paint(y, covered, surface),
-            );
+            ),
         }
     }
 
     fn translucent(&mut self, shape: Shape<'_>, above: Translucent<'a>, shape_coverage: &mut ShapeCoverage) {
-        let by_four = self.has_four_rows(shape);
+        let narrow_side = self.narrow_side(shape);
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
         let tint = Tint { surfaces, above };
-        if by_four {
-            dispatch!(simd::level(), simd => translucent_four(simd, shape, shape_coverage, tile, tint));
-        } else {
-            shape_coverage.each(
+        match narrow_side {
+            Some(NarrowSide::Two) => {
+                dispatch!(simd::level(), simd => translucent_rows::<_, 2>(simd, shape, shape_coverage, tile, tint));
+            }
+            Some(NarrowSide::Four) => {
+                dispatch!(simd::level(), simd => translucent_rows::<_, 4>(simd, shape, shape_coverage, tile, tint));
+            }
+            None => shape_coverage.each(
                 shape,
                 tile.rect,
                 #[inline(always)]
                 |y, covered| tile.change(y, covered, |surface| tint.surfaces.under(surface, tint.above)),
-            );
+            ),
         }
     }
 
@@ -183,13 +191,17 @@ impl<'a> VisibilityPainter<'a> {
         }
     }
 
-    /// Whether a pixel has 4 x 4 samples of the grid and a shape may have many rows of them, so that it pays to look at
-    /// several at once.
+    /// Whether a pixel has 2 x 2 or 4 x 4 samples of the grid and a shape may have many rows of them, so that it pays to look
+    /// at several at once.
     #[inline]
-    fn has_four_rows(&self, shape: Shape<'_>) -> bool {
+    fn narrow_side(&self, shape: Shape<'_>) -> Option<NarrowSide> {
         // The lattice of other positions is far finer.
-        self.context.grid.side() == pixel_rows_4x4::SIDE
-            && !matches!(shape, Shape::Tile | Shape::Samples(_) | Shape::Pixels(_))
+        match (self.context.grid.side(), shape) {
+            (_, Shape::Tile | Shape::Samples(_) | Shape::Pixels(_)) => None,
+            (2, _) => Some(NarrowSide::Two),
+            (4, _) => Some(NarrowSide::Four),
+            _ => None,
+        }
     }
 
     /// Makes sure that every surface may be mixed with the next paint. There are twice as many numbers as samples in a
@@ -207,6 +219,13 @@ impl<'a> VisibilityPainter<'a> {
     }
 }
 
+/// How many samples lie along a side of a pixel where several rows of pixels are looked at at once.
+#[derive(Clone, Copy, Debug)]
+enum NarrowSide {
+    Two,
+    Four,
+}
+
 /// A translucent paint, and the surfaces that it makes of those below it.
 struct Tint<'t, 'a> {
     surfaces: &'t mut SurfaceTable<'a>,
@@ -218,10 +237,10 @@ fn buffer(context: &ShadeContext<'_>) -> VisibilityBuffer {
     VisibilityBuffer::new(context.rate.side().cast_signed())
 }
 
-/// Lets the samples of a shape show `surface`, where a pixel has 4 x 4 samples.
+/// Lets the samples of a shape show `surface`, where a pixel has `SIDE` x `SIDE` samples.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn opaque_four<S: Simd>(
+fn opaque_rows<S: Simd, const SIDE: usize>(
     simd: S,
     shape: Shape<'_>,
     shape_coverage: &mut ShapeCoverage,
@@ -231,21 +250,21 @@ fn opaque_four<S: Simd>(
     simd.vectorize(
         #[inline(always)]
         || {
-            shape_coverage.each_row_of_four(
+            shape_coverage.each_narrow_row::<_, SIDE>(
                 simd,
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |row| tile.paint_four(simd, row, surface),
+                |row| tile.paint_row(simd, row, surface),
             );
         },
     );
 }
 
-/// Paints a translucent colour over the samples of a shape, where a pixel has 4 x 4 samples.
+/// Paints a translucent colour over the samples of a shape, where a pixel has `SIDE` x `SIDE` samples.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn translucent_four<S: Simd>(
+fn translucent_rows<S: Simd, const SIDE: usize>(
     simd: S,
     shape: Shape<'_>,
     shape_coverage: &mut ShapeCoverage,
@@ -255,12 +274,12 @@ fn translucent_four<S: Simd>(
     simd.vectorize(
         #[inline(always)]
         || {
-            shape_coverage.each_row_of_four(
+            shape_coverage.each_narrow_row::<_, SIDE>(
                 simd,
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |row| tile.change_four(simd, row, |surface| surfaces.under(surface, above)),
+                |row| tile.change_row(simd, row, |surface| surfaces.under(surface, above)),
             );
         },
     );

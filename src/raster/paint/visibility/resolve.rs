@@ -91,6 +91,15 @@ impl Known for Light {
     }
 }
 
+/// A row of a tile's pixels.
+struct RowRuns {
+    /// In the frame, and in the tile.
+    y: i32,
+    row: u16,
+    /// The last pixels of its runs, a bit for each.
+    ends: u64,
+}
+
 /// Where whole pixels go once they are shaded.
 enum Whole<'b, 'p> {
     /// Resolved, into the frame.
@@ -112,12 +121,16 @@ impl VisibilityPainter<'_> {
             }
             return Duration::ZERO;
         }
-        for (y, row) in (y.start..y.end).zip(0..) {
+        let mut run_ends = std::mem::take(&mut self.run_ends);
+        dispatch!(simd::level(), simd => self.layers.base().run_ends(simd, &mut run_ends));
+        for ((y, row), ends) in (y.start..y.end).zip(0..).zip(&run_ends) {
+            let row = RowRuns { y, row, ends: *ends };
             match self.by_samples.mean {
-                SampleMean::Stored(resolver) => self.resolve_row::<Spread>(y, row, block.line(y), resolver),
-                SampleMean::Linear(resolver) => self.resolve_row::<Light>(y, row, block.line(y), resolver),
+                SampleMean::Stored(resolver) => self.resolve_row::<Spread>(row, block.line(y), resolver),
+                SampleMean::Linear(resolver) => self.resolve_row::<Light>(row, block.line(y), resolver),
             }
         }
+        self.run_ends = run_ends;
         if self.unresolved.is_empty() {
             return Duration::ZERO;
         }
@@ -160,7 +173,12 @@ impl VisibilityPainter<'_> {
         }
         self.unresolved.clear();
         let SpanRect { x, y } = self.layers.base().rect;
-        self.resolve_row::<Spread>(y.start, 0, &mut [0], self.resolver);
+        let row = RowRuns {
+            y: y.start,
+            row: 0,
+            ends: 0,
+        };
+        self.resolve_row::<Spread>(row, &mut [0], self.resolver);
         self.unresolved.sort(self.surfaces.len());
         let mut whole = Whole::Keep(None);
         self.shade([x.start, y.start], &mut whole);
@@ -237,10 +255,10 @@ impl VisibilityPainter<'_> {
     }
 
     /// Resolves what is flat, and notes what is to be shaded with the sums of what it shares its pixels with.
-    fn resolve_row<K: Known>(&mut self, y: i32, row: u16, line: &mut [u32], resolver: K::Resolver) {
+    fn resolve_row<K: Known>(&mut self, RowRuns { y, row, ends }: RowRuns, line: &mut [u32], resolver: K::Resolver) {
         let (tile, surfaces) = (self.layers.base(), &self.surfaces);
         let unresolved = &mut self.unresolved;
-        for (run, range) in tile.runs(y) {
+        for (run, range) in tile.runs(y, ends) {
             match run {
                 Run::Whole(surface) => {
                     let shown = surfaces.get(surface);
@@ -273,7 +291,13 @@ impl VisibilityPainter<'_> {
                 Run::Split => {
                     for x in columns(range) {
                         let mut known = K::default();
-                        unresolved.split([x, row], tile.samples(usize::from(x), y), known.taking(surfaces));
+                        let place = [x, row];
+                        if let Some(rows) = tile.word_rows(usize::from(x), y) {
+                            unresolved.split_rows(place, rows, known.taking(surfaces));
+                        } else {
+                            let samples = tile.samples(usize::from(x), y);
+                            unresolved.split(place, samples, known.taking(surfaces));
+                        }
                         known.keep(unresolved);
                     }
                 }

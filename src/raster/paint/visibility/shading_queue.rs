@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::color::Light;
+use crate::raster::paint::visibility::packed::{PER_WORD, equal, lanes, splat};
 use crate::raster::shading::context::PixelRun;
 use crate::raster::surface_id::SurfaceId;
 
@@ -118,6 +119,27 @@ impl ShadingQueue {
         self.parts = parts;
     }
 
+    /// The same where each of these words holds a row of samples, as many as there are rows.
+    #[inline]
+    pub(crate) fn split_rows(&mut self, place: [u16; 2], rows: &[u64], take: impl FnMut(SurfaceId, u32) -> bool) {
+        let side = rows.len();
+        debug_assert!((1..=PER_WORD).contains(&side), "a row of samples is a word");
+        let of_row = (1 << side) - 1;
+        let mut rest = u64::MAX >> (64 - side * side);
+        let parts = std::iter::from_fn(|| {
+            let first = rest.trailing_zeros() as usize;
+            let surface = lanes(*rows.get(first / side)?)[first % side];
+            let all = splat(surface);
+            let mut mask = 0;
+            for (word, shift) in rows.iter().zip((0..).step_by(side)) {
+                mask |= (equal(*word, all) & of_row) << shift;
+            }
+            rest &= !mask;
+            Some((surface, 0, mask))
+        });
+        self.parts(place, parts, take);
+    }
+
     /// The samples of the pixel at `place` show these surfaces: for each part the surface, the sample that the lowest bit of the
     /// mask stands for, and the mask. What is flat is not to be shaded: `take` is told how many samples show a surface, and says
     /// whether it took them.
@@ -200,6 +222,7 @@ impl<T: Copy> BySurface<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::paint::visibility::packed::joined;
 
     #[test]
     fn sort_keeps_the_order_inside_a_surface() {
@@ -235,5 +258,29 @@ mod tests {
             [(1, 0), (1, 64), (2, 128), (2, 192)].map(|(surface, first)| (surface, Fragment { first, pixel: 0, mask }));
         let found = &unresolved.found.fragments;
         assert_eq!(*found, expected, "the others are to be shaded, 64 at a time");
+    }
+
+    #[test]
+    fn rows_of_words_are_split_as_samples_are() {
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=PER_WORD)?;
+            let mut word = || -> arbtest::arbitrary::Result<[SurfaceId; PER_WORD]> {
+                let mut surface = || u.int_in_range(0..=3);
+                Ok([surface()?, surface()?, surface()?, surface()?])
+            };
+            let rows = (0..side)
+                .map(|_| word())
+                .collect::<arbtest::arbitrary::Result<Vec<_>>>()?;
+            let words: Vec<u64> = rows.iter().map(|row| joined(*row)).collect();
+            let (mut by_rows, mut by_samples) = (ShadingQueue::default(), ShadingQueue::default());
+            let take = |surface: SurfaceId, _: u32| surface == 2;
+            by_rows.split_rows([7, 3], &words, take);
+            by_samples.split([7, 3], rows.iter().flat_map(|row| &row[..side]).copied(), take);
+            assert_eq!(by_rows.places, by_samples.places, "the pixel");
+            let [found, expected] = [&by_rows, &by_samples].map(|queue| &queue.found.fragments);
+            assert_eq!(found, expected, "{rows:?}");
+            Ok(())
+        })
+        .budget_ms(200);
     }
 }

@@ -7,14 +7,17 @@
 //! number per sample. A primitive that covers a pixel wholly makes it one again. So flat areas cost one store per pixel
 //! at every sample rate, most edges a few bits, and nothing is shaded before it is known to be seen.
 //!
-//! [`paint`] and [`change`] are the two ways to paint, by opaque and by translucent colours; [`rows_4x4`] does both four
-//! pixels at a time where a pixel has 4 x 4 samples.
+//! [`paint`] and [`change`] are the two ways to paint, by opaque and by translucent colours; [`narrow_rows`] does both
+//! four pixels at a time where a pixel has 2 x 2 or 4 x 4 samples.
 
 mod change;
+mod narrow_rows;
 mod paint;
-mod rows_4x4;
 
 use std::ops::Range;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, u16x32};
 
 pub(crate) use change::Composer;
 
@@ -213,16 +216,28 @@ impl VisibilityBuffer {
         &self.whole[offset(self.rect.y.start, y)][..self.width]
     }
 
-    /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side.
+    /// The last pixels of the runs of each row, a bit for each; the last one of a row may have none.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn run_ends<S: Simd>(&self, simd: S, ends: &mut Vec<u64>) {
+        ends.clear();
+        ends.extend(self.whole.iter().map(
+            #[inline(always)]
+            |row| run_ends(simd, row),
+        ));
+    }
+
+    /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side; `ends` as
+    /// [`VisibilityBuffer::run_ends`] has them.
     #[inline]
-    pub(crate) fn runs(&self, y: i32) -> impl Iterator<Item = (Run, Range<usize>)> + '_ {
+    pub(crate) fn runs(&self, y: i32, ends: u64) -> impl Iterator<Item = (Run, Range<usize>)> + '_ {
         let line = self.row(y);
         let mut start = 0;
         std::iter::from_fn(move || {
             let surface = *line.get(start)?;
-            let end = start + run_length(&line[start..], surface);
-            let range = start..end;
-            start = end;
+            let length = (ends >> (start % ROW)).trailing_zeros() as usize + 1;
+            let range = start..line.len().min(start + length);
+            start = range.end;
             let run = match surface {
                 SPLIT => Run::Split,
                 TWO_SURFACES => Run::TwoSurfacePixels,
@@ -230,6 +245,14 @@ impl VisibilityBuffer {
             };
             Some((run, range))
         })
+    }
+
+    /// As [`VisibilityBuffer::runs`], whose ends are found first.
+    #[cfg(test)]
+    fn found_runs(&self, y: i32) -> impl Iterator<Item = (Run, Range<usize>)> + '_ {
+        let mut ends = Vec::new();
+        fearless_simd::dispatch!(crate::simd::level(), simd => self.run_ends(simd, &mut ends));
+        self.runs(y, ends[offset(self.rect.y.start, y)])
     }
 
     /// The pixels of row `y`.
@@ -261,6 +284,12 @@ impl VisibilityBuffer {
         self.words(x, y)
             .chunks_exact(self.words)
             .flat_map(|row| row.iter().flat_map(|word| lanes(*word)).take(self.side))
+    }
+
+    /// The same, a word for each row, where that is enough.
+    #[inline]
+    pub(crate) fn word_rows(&self, x: usize, y: i32) -> Option<&[u64]> {
+        (self.words == 1).then(|| self.words(x, y))
     }
 
     /// The same four to a word, row by row; the last word of a row may hold fewer.
@@ -307,6 +336,18 @@ impl VisibilityBuffer {
     }
 }
 
+/// The surfaces of a row that differ from the next one, a bit for each.
+#[inline(always)]
+fn run_ends<S: Simd>(simd: S, row: &[SurfaceId; ROW]) -> u64 {
+    const HALF: usize = ROW / 2;
+    const LOW: u64 = u64::MAX >> HALF;
+    let surfaces = |from: usize| u16x32::from_slice(simd, &row[from..from + HALF]);
+    let equal = |from: usize| surfaces(from).simd_eq(surfaces(from + 1)).to_bitmask();
+    // The last surface has no next one; that before the second half is looked at twice.
+    let of_second = HALF - 1;
+    (!equal(0) & LOW) | (!equal(of_second) & LOW) << of_second
+}
+
 /// How many surfaces at the beginning of `line` are `surface`.
 #[inline]
 fn run_length(line: &[SurfaceId], surface: SurfaceId) -> usize {
@@ -333,6 +374,7 @@ mod tests {
     use std::cell::Cell;
 
     use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
 
     use super::*;
     use crate::raster::coverage::covered::Covered;
@@ -372,7 +414,7 @@ mod tests {
         fn of(tile: &VisibilityBuffer) -> Self {
             let mut pixels = Vec::new();
             for y in RECT.y.start..RECT.y.end {
-                for (run, xs) in tile.runs(y) {
+                for (run, xs) in tile.found_runs(y) {
                     for x in xs {
                         let count = tile.side * tile.side;
                         pixels.push(match run {
@@ -473,6 +515,30 @@ mod tests {
     }
 
     #[test]
+    fn runs_end_where_surfaces_change_on_every_level() {
+        arbtest::arbtest(|u| {
+            let mut row = [0; ROW];
+            let mut surface = 0;
+            for shown in &mut row {
+                if u.ratio(1, 5)? {
+                    surface = *u.choose(&[0, 1, 0x8000, TWO_SURFACES, SPLIT])?;
+                }
+                *shown = surface;
+            }
+            let mut expected = 0;
+            for (bit, two) in row.windows(2).enumerate() {
+                expected |= u64::from(two[0] != two[1]) << bit;
+            }
+            for (name, level) in crate::simd::tested() {
+                let found = dispatch!(level, simd => run_ends(simd, &row));
+                assert_eq!(found, expected, "{name}: {row:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(200);
+    }
+
+    #[test]
     fn compressed_samples_show_what_plain_ones_would() {
         let (split, shared) = (Cell::new(0), Cell::new(0));
         check_until(
@@ -498,7 +564,7 @@ mod tests {
                 let missed = (0..4096).find(|surface| used(*surface) && !seen[usize::from(*surface)]);
                 assert_eq!(missed, None, "every surface in use is seen");
                 for y in RECT.y.start..RECT.y.end {
-                    let runs = || tile.runs(y).map(|(run, _)| run);
+                    let runs = || tile.found_runs(y).map(|(run, _)| run);
                     split.set(split.get() + runs().filter(|run| *run == Run::Split).count());
                     shared.set(shared.get() + runs().filter(|run| *run == Run::TwoSurfacePixels).count());
                 }

@@ -1,4 +1,4 @@
-//! Painting rows of pixels with 4 x 4 samples, four pixels on an edge at a time: [`VisibilityBuffer::paint`] and
+//! Painting rows of pixels with 2 x 2 or 4 x 4 samples, four pixels on an edge at a time: [`VisibilityBuffer::paint`] and
 //! [`VisibilityBuffer::change`] with few instructions.
 
 use std::ops::Range;
@@ -6,7 +6,7 @@ use std::ops::Range;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
+use crate::raster::coverage::narrow_rows::{Ends, TileRow, Window, each_window};
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::two_surfaces::{
@@ -25,7 +25,12 @@ impl VisibilityBuffer {
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, surface: SurfaceId) {
+    pub(crate) fn paint_row<S: Simd, const SIDE: usize>(
+        &mut self,
+        simd: S,
+        row: &TileRow<'_, SIDE>,
+        surface: SurfaceId,
+    ) {
         // Those covered in part may be shared from now on, and full ones are not.
         let shared = &mut self.shared[row.y];
         *shared |= bits(&row.touched);
@@ -51,10 +56,10 @@ impl VisibilityBuffer {
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn change_four<S: Simd>(
+    pub(crate) fn change_row<S: Simd, const SIDE: usize>(
         &mut self,
         simd: S,
-        row: &TileRow<'_>,
+        row: &TileRow<'_, SIDE>,
         mut change: impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         self.shared[row.y] |= bits(&row.touched);
@@ -151,7 +156,7 @@ impl VisibilityBuffer {
     clippy::redundant_closure,
     reason = "a reference to `visit` would not be inlined into vectors"
 )]
-fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
+fn each_partial_window<S: Simd, const SIDE: usize>(simd: S, row: &TileRow<'_, SIDE>, mut visit: impl FnMut(Window)) {
     if row.full.is_empty() {
         return each_window(simd, row, row.touched.clone(), Ends::Both, visit);
     }
@@ -207,30 +212,29 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
+    use crate::raster::coverage::narrow_rows::each_row;
     use crate::raster::coverage::pixel_rows::each_covered;
-    use crate::raster::coverage::pixel_rows_4x4::each_row;
     use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
     use crate::raster::coverage::span_rows::StoredRows;
     use crate::raster::paint::visibility::buffer::Run;
     use crate::raster::span::{Span, SpanRect};
     use crate::simd;
 
-    const SIDE: i32 = 4;
-
     /// What all samples of a tile show, pixel by pixel.
     fn samples(tile: &VisibilityBuffer) -> Vec<Vec<SurfaceId>> {
+        let count = tile.side * tile.side;
         let mut all = Vec::new();
         for y in tile.rect.y.start..tile.rect.y.end {
-            for (run, xs) in tile.runs(y) {
+            for (run, xs) in tile.found_runs(y) {
                 for x in xs {
                     all.push(match run {
-                        Run::Whole(surface) => vec![surface; 16],
+                        Run::Whole(surface) => vec![surface; count],
                         Run::TwoSurfacePixels => {
                             let two = tile.two_surfaces(y).get(x);
                             let surface = |i: u64| {
                                 if two.mask >> i & 1 == 1 { two.second } else { two.first }
                             };
-                            (0..16).map(surface).collect()
+                            (0..).take(count).map(surface).collect()
                         }
                         Run::Split => tile.samples(x, y).collect(),
                     });
@@ -241,11 +245,11 @@ mod tests {
     }
 
     /// Spans in the sample rows of a tile and around it, few or several in each.
-    fn shape(u: &mut Unstructured<'_>, rect: SpanRect) -> Result<(Span, Vec<Vec<Span>>)> {
-        let start = u.int_in_range(0..=rect.y.end * SIDE - 1)?;
+    fn shape(u: &mut Unstructured<'_>, rect: SpanRect, side: i32) -> Result<(Span, Vec<Vec<Span>>)> {
+        let start = u.int_in_range(0..=rect.y.end * side - 1)?;
         let rows = Span {
             start,
-            end: u.int_in_range(start + 1..=rect.y.end * SIDE + 3)?,
+            end: u.int_in_range(start + 1..=rect.y.end * side + 3)?,
         };
         let (several, steep) = (u.ratio(1, 3)?, u.int_in_range(-6..=6)?);
         let (mut from, mut to) = (u.int_in_range(-9..=300)?, u.int_in_range(-9..=400)?);
@@ -271,7 +275,7 @@ mod tests {
     }
 
     /// Paints a shape of a surface, or changes what it covers, in four and pixel by pixel.
-    fn paint_both(
+    fn paint_both<const SIDE: usize>(
         level: simd::Level,
         tiles: &mut [VisibilityBuffer; 2],
         spans: RowSpans<'_>,
@@ -280,12 +284,13 @@ mod tests {
         let [quick, slow] = tiles;
         let rect = quick.rect;
         let change = |surface: SurfaceId| surface % 200 * 7 % 101;
-        let rows = || StoredRows::<4>::new(spans, SIDE, rect);
+        let side = i32::try_from(SIDE).expect("few samples");
+        let rows = || StoredRows::<SIDE>::new(spans, side, rect);
         dispatch!(level, simd => each_row(simd, &mut rows(), rect, |row| match surface {
-            Some(surface) => quick.paint_four(simd, row, surface),
-            None => quick.change_four(simd, row, change),
+            Some(surface) => quick.paint_row::<_, SIDE>(simd, row, surface),
+            None => quick.change_row::<_, SIDE>(simd, row, change),
         }));
-        each_covered(&mut rows(), SIDE, rect.x, |y, covered| match surface {
+        each_covered(&mut rows(), side, rect.x, |y, covered| match surface {
             Some(surface) => slow.paint(y, covered, surface),
             None => slow.change(y, covered, change),
         });
@@ -306,12 +311,13 @@ mod tests {
             };
             let levels = simd::tested();
             let (name, level) = u.choose(&levels)?;
-            let mut tiles = [VisibilityBuffer::new(SIDE), VisibilityBuffer::new(SIDE)];
+            let side = *u.choose(&[2, 4])?;
+            let mut tiles = [VisibilityBuffer::new(side), VisibilityBuffer::new(side)];
             for tile in &mut tiles {
                 tile.reset(rect, 1);
             }
             for _ in 0..u.int_in_range(1..=6)? {
-                let (rows, spans) = shape(u, rect)?;
+                let (rows, spans) = shape(u, rect, side)?;
                 let surface = if u.ratio(1, 3)? {
                     None
                 } else {
@@ -319,7 +325,10 @@ mod tests {
                 };
                 let mut store = SpanStore::default();
                 let stored = store.put(rows, &spans);
-                paint_both(*level, &mut tiles, store.get(stored), surface);
+                match side {
+                    2 => paint_both::<2>(*level, &mut tiles, store.get(stored), surface),
+                    _ => paint_both::<4>(*level, &mut tiles, store.get(stored), surface),
+                }
                 let [quick, slow] = &tiles;
                 assert_eq!(
                     samples(quick),
@@ -333,7 +342,7 @@ mod tests {
                     let shared = quick.shown(y).shared >> x & 1 == 1;
                     assert!(*surface < TWO_SURFACES || shared, "what is shared has a bit");
                 }
-                split += quick.runs(y).filter(|(run, _)| *run == Run::Split).count();
+                split += quick.found_runs(y).filter(|(run, _)| *run == Run::Split).count();
             }
             Ok(())
         })

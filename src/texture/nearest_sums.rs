@@ -25,8 +25,12 @@ use glam::DVec2;
 
 use super::PixelSampling;
 use super::bilinear::add;
+use super::covered::Covered;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
 use super::fixed_point::FRACTION_BITS;
+use super::nearest_counts::{Counts, FourTexels};
+use super::sample_filter::RowPairs;
+use super::simd_channels::Spread;
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows, in_texture};
 use super::wrap::{self, Endless};
 use super::{block_filter, sample_filter};
@@ -71,12 +75,15 @@ pub(super) struct Offsets<const N: usize> {
 }
 
 /// Which texels the samples of a vector of pixels read.
-pub(super) struct Found<S: Simd, const N: usize> {
+pub(super) struct Found<const N: usize> {
     /// For each sample the texel of each pixel.
     pub(super) texels: [[u32; MAX_LANES]; N],
-    /// How far the samples are from the edges of their texels, at least; in the lower half of each lane.
-    distance: S::i16s,
+    pub(super) uncertain: Uncertain,
 }
+
+/// The pixels of a vector of which a sample may lie in another texel than the one that was found: a bit for each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uncertain(u64);
 
 impl<'a, const N: usize> NearestSamples<'a, N> {
     /// For a plan that reads the nearest texel of one level, at all samples of a grid; `None` where it does not, or numbers are too
@@ -124,6 +131,16 @@ impl<'a, const N: usize> NearestSamples<'a, N> {
         Positions::new(simd, [columns * side, rows * side], middle)
     }
 
+    /// Where the centres of up to a vector of pixels lie in the level or around it, in fixed point.
+    #[inline(always)]
+    pub(super) fn centres_around<S: Simd>(&self, simd: S, pixels: &[[u16; 2]], middle: DVec2) -> [S::i32s; 2] {
+        let at = self.centres(simd, pixels, middle);
+        [
+            at.around(simd, &self.level.x, self.x.reach),
+            at.around(simd, &self.level.y, self.y.reach),
+        ]
+    }
+
     /// The centre of the pixel that lists are counted from, in samples from the pivot.
     pub(super) fn middle(&self, plan: &Plan<'_>) -> DVec2 {
         plan.first + f64::from(self.side - 1) / 2.0
@@ -164,6 +181,11 @@ impl<const N: usize> Offsets<N> {
         reach.is_finite().then_some(Self { of_samples, reach })
     }
 
+    /// How far samples lie apart, in texels; those of a few places less.
+    pub(super) fn spread(&self) -> f64 {
+        2.0 * (self.reach - AWAY)
+    }
+
     /// Brings samples into the period before the first one, on an axis that goes on for ever.
     fn bring_before(&mut self, endless: &Endless) {
         for offset in &mut self.of_samples {
@@ -192,42 +214,122 @@ pub(super) fn sum<S: Simd, const N: usize>(
     sums: &mut [[u32; 4]],
 ) {
     let lanes = S::u32s::LEN;
-    let count = samples.count;
+    let texels = samples.level.level.texels();
     let middle = samples.middle(plan);
-    let mut found = Found::new(simd);
+    let mut found = Found::NONE;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
         found.find(simd, samples, pixels, middle);
-        let masks = list.masks.map(|masks| &masks[i * lanes..]);
-        for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
-            let mask = masks.map(|masks| masks[lane]);
-            *sum = if found.is_uncertain(lane) {
-                exact::<S, N>(simd, plan, samples.side, *pixel, mask)
-            } else {
-                let texels = samples.level.level.texels();
-                match mask {
-                    None => sum_all(simd, texels, &found.texels[..count], lane),
-                    Some(mask) => sum_some(texels, &found.texels[..count], lane, mask),
+        let found_texels = &found.texels[..samples.count];
+        match masks {
+            None => {
+                for (lane, sum) in sums.iter_mut().enumerate() {
+                    sum_all(simd, texels, found_texels, lane).store_slice(sum);
                 }
-            };
+            }
+            Some(masks) => {
+                for (lane, (sum, mask)) in sums.iter_mut().zip(masks).enumerate() {
+                    *sum = sum_some(texels, found_texels, lane, *mask);
+                }
+            }
         }
+        sum_uncertain(simd, (plan, samples.side), found.uncertain, (pixels, masks), sums);
     }
 }
 
-impl<S: Simd, const N: usize> Found<S, N> {
-    #[inline(always)]
-    pub(super) fn new(simd: S) -> Self {
-        Self {
-            texels: [[0; MAX_LANES]; N],
-            distance: S::i16s::splat(simd, 0),
+/// As [`sum`] where all samples of a pixel lie in four texels at most.
+#[inline(always)]
+pub(super) fn sum_counted<S: Simd, const N: usize>(
+    simd: S,
+    plan: &Plan<'_>,
+    (samples, four): (&NearestSamples<'_, N>, FourTexels),
+    list: PixelList<'_>,
+    sums: &mut [[u32; 4]],
+) {
+    let lanes = S::u32s::LEN;
+    let middle = samples.middle(plan);
+    let count = samples.side * samples.side;
+    let spread = Spread::new(simd);
+    let rows = RowPairs::new(&samples.level);
+    let mut counts = Counts::NONE;
+    for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
+        let centres = samples.centres_around(simd, pixels, middle);
+        counts.count(simd, (samples, four), centres, Covered::new(simd, count, masks));
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            let columns = rows.columns(
+                simd,
+                spread,
+                counts.firsts[lane % MAX_LANES],
+                counts.in_texels[lane % MAX_LANES],
+            );
+            let (left, right) = columns.split();
+            // A byte is stored as 256 times itself.
+            ((left + right) << 8).bitcast::<u32x4<S>>().store_slice(sum);
         }
+        sum_uncertain(simd, (plan, samples.side), counts.uncertain, (pixels, masks), sums);
     }
+}
+
+/// The sums of those pixels for which it was not certain where their samples lie.
+#[inline(always)]
+fn sum_uncertain<S: Simd>(
+    simd: S,
+    (plan, side): (&Plan<'_>, u32),
+    uncertain: Uncertain,
+    (pixels, masks): (&[[u16; 2]], Option<&[u64]>),
+    sums: &mut [[u32; 4]],
+) {
+    for lane in uncertain.lanes(pixels.len()) {
+        let mask = masks.map(|masks| masks[lane]);
+        sums[lane] = if (side * side) as usize > FEW {
+            exact::<S, MANY>(simd, plan, side, pixels[lane], mask)
+        } else {
+            exact::<S, FEW>(simd, plan, side, pixels[lane], mask)
+        };
+    }
+}
+
+impl Uncertain {
+    pub(super) const NONE: Self = Self(0);
+
+    /// Of pixels whose samples are so far from the edges of their texels, as they were found, at least: in the lower half of
+    /// each lane.
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(simd: S, distance: S::i16s) -> Self {
+        let distance = distance.bitcast::<S::i32s>() & S::i32s::splat(simd, 0xFFFF);
+        Self(distance.simd_lt(S::i32s::splat(simd, UNCERTAIN)).to_bitmask())
+    }
+
+    /// The lanes of these pixels, of the first `count`.
+    #[inline(always)]
+    pub(super) fn lanes(self, count: usize) -> impl Iterator<Item = usize> {
+        let mut rest = self.0 & ((1 << count) - 1);
+        std::iter::from_fn(move || {
+            let lane = rest.trailing_zeros();
+            rest &= rest.wrapping_sub(1);
+            (lane < u64::BITS).then_some(lane as usize)
+        })
+    }
+}
+
+impl<const N: usize> Found<N> {
+    pub(super) const NONE: Self = Self {
+        texels: [[0; MAX_LANES]; N],
+        uncertain: Uncertain::NONE,
+    };
 
     /// Finds the texels of up to a vector of pixels; `middle` is the centre of the pixel that lists are counted from.
     #[inline(always)]
-    pub(super) fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, pixels: &[[u16; 2]], middle: DVec2) {
-        let at = samples.centres(simd, pixels, middle);
-        let level = &samples.level;
+    pub(super) fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        samples: &NearestSamples<'_, N>,
+        pixels: &[[u16; 2]],
+        middle: DVec2,
+    ) {
         if let Some([x, y]) = &samples.endless {
+            let (at, level) = (samples.centres(simd, pixels, middle), &samples.level);
             let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];
             self.find_around(
                 simd,
@@ -237,14 +339,10 @@ impl<S: Simd, const N: usize> Found<S, N> {
                 |[column, row]| [in_texture(simd, x, column), in_texture(simd, y, row)],
             );
         } else {
-            let centres = [
-                at.around(simd, &level.x, samples.x.reach),
-                at.around(simd, &level.y, samples.y.reach),
-            ];
             self.find_around(
                 simd,
                 samples,
-                centres,
+                samples.centres_around(simd, pixels, middle),
                 #[inline(always)]
                 |at| at,
             );
@@ -253,7 +351,7 @@ impl<S: Simd, const N: usize> Found<S, N> {
 
     /// The same of pixels whose centres lie there, in fixed point; `inside` says what places of samples stand for.
     #[inline(always)]
-    fn find_around(
+    fn find_around<S: Simd>(
         &mut self,
         simd: S,
         samples: &NearestSamples<'_, N>,
@@ -282,44 +380,38 @@ impl<S: Simd, const N: usize> Found<S, N> {
             let offset: S::u32s = inside.pairwise_dot_product(stride).bitcast();
             offset.store_slice(&mut texels[..S::u32s::LEN]);
         }
-        self.distance = distance;
+        self.uncertain = Uncertain::new(simd, distance);
     }
-
-    /// Whether a sample of a pixel may read another texel than the one that was found.
-    #[inline(always)]
-    pub(super) fn is_uncertain(&self, lane: usize) -> bool {
-        is_uncertain::<S>(self.distance, lane)
-    }
-}
-
-/// Whether a sample that is so far from the edges of texels, as it was found, may lie in another one.
-#[inline(always)]
-pub(super) fn is_uncertain<S: Simd>(distance: S::i16s, lane: usize) -> bool {
-    i32::from(distance.as_slice()[2 * lane]) < UNCERTAIN
 }
 
 /// The sum of the texels that all samples of a pixel read.
 #[inline(always)]
-fn sum_all<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize) -> [u32; 4] {
-    let texel = |found: &[u32; MAX_LANES]| texels[found[lane % MAX_LANES] as usize];
+fn sum_all<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize) -> u32x4<S> {
+    let texel = |found: &[u32; MAX_LANES]| u32::from_le_bytes(texels[found[lane % MAX_LANES] as usize]);
     let zero = u8x16::splat(simd, 0);
+    let widened = |texels: [u32; 4]| {
+        let bytes: u8x16<S> = u32x4::simd_from(simd, texels).bitcast();
+        bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>()
+    };
     // Of every second sample: half of 256 bytes fit 16 bits.
     let mut halves = u16x8::splat(simd, 0);
     let (fours, rest) = found.as_chunks::<4>();
-    for four in fours {
-        let four = four.each_ref().map(|found| u32::from_le_bytes(texel(found)));
-        let bytes: u8x16<S> = u32x4::simd_from(simd, four).bitcast();
-        halves += bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>();
+    for [a, b, c, d] in fours {
+        halves += widened([texel(a), texel(b), texel(c), texel(d)]);
     }
-    let halves = halves.to_array();
-    let mut sums = [0, 1, 2, 3].map(|i| u32::from(halves[i]) + u32::from(halves[i + 4]));
+    let mut sums = whole(simd, halves);
     for found in rest {
-        for (sum, byte) in sums.iter_mut().zip(texel(found)) {
-            *sum += u32::from(byte);
-        }
+        sums += whole(simd, widened([texel(found), 0, 0, 0]));
     }
     // A byte is stored as 256 times itself.
-    sums.map(|sum| sum << 8)
+    sums << 8
+}
+
+/// The sums of the lower four numbers and the upper four.
+#[inline(always)]
+fn whole<S: Simd>(simd: S, halves: u16x8<S>) -> u32x4<S> {
+    let zero = u16x8::splat(simd, 0);
+    halves.zip_low(zero).bitcast::<u32x4<S>>() + halves.zip_high(zero).bitcast::<u32x4<S>>()
 }
 
 /// The same of those of the first 64 samples that a mask names.

@@ -1,15 +1,4 @@
 //! What the bytes of the nearest texels count by a table, summed over the samples of pixels: their light, for one.
-//!
-//! Where a pixel's samples are spread over less than a texel, they lie in at most four. Then it is enough to count how many
-//! lie in each, and a pixel takes four texels instead of one for every sample:
-//!
-//! ```text
-//!        o  o | o  o
-//!        o  o | o  o        left of one edge: 8
-//!      -------+-------      above the other: 8
-//!        o  o | o  o        both: 4
-//!        o  o | o  o
-//! ```
 
 #![expect(
     clippy::inline_always,
@@ -19,9 +8,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::covered::Covered;
 use super::filter_plan::Plan;
-use super::fixed_point::FRACTION_BITS;
-use super::nearest_sums::{FEW, Found, MANY, NearestSamples, exact_colors, is_uncertain};
+use super::nearest_counts::{Counts, FourTexels};
+use super::nearest_sums::{FEW, Found, MANY, NearestSamples, Uncertain, exact_colors};
 use super::texel_coordinates::MAX_LANES;
 
 /// Some pixels, where their samples lie, and what a byte counts.
@@ -46,18 +36,6 @@ pub enum ByteValues<'a> {
     Table(&'a [u32; 256]),
 }
 
-/// How many samples of a vector of pixels lie in each of the four texels that have any.
-struct Counted<S: Simd> {
-    texels: [[u32; MAX_LANES]; 4],
-    counts: [[u32; MAX_LANES]; 4],
-    /// As in [`Found`].
-    distance: S::i16s,
-}
-
-/// Where the first of the four texels lies at least, for each axis.
-#[derive(Clone, Copy)]
-struct FirstTexel([i32; 2]);
-
 /// Red, green and blue of what all samples of each pixel count, which lie in the same places in all; `false` where other texels than
 /// the nearest are read.
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
@@ -80,8 +58,8 @@ fn sum_of<const N: usize>(
     let Some(samples) = NearestSamples::<N>::of_places(plan, side, list.inside) else {
         return false;
     };
-    match FirstTexel::of_few(&samples) {
-        Some(first) => dispatch!(level, simd => sum_counted(simd, (plan, side), (&samples, first), list, sums)),
+    match FourTexels::of(&samples) {
+        Some(four) => dispatch!(level, simd => sum_counted(simd, (plan, side), (&samples, four), list, sums)),
         None => dispatch!(level, simd => sum_each(simd, (plan, side), &samples, list, sums)),
     }
     true
@@ -92,31 +70,25 @@ fn sum_of<const N: usize>(
 fn sum_counted<S: Simd, const N: usize>(
     simd: S,
     (plan, side): (&Plan<'_>, u32),
-    (samples, first): (&NearestSamples<'_, N>, FirstTexel),
+    (samples, four): (&NearestSamples<'_, N>, FourTexels),
     list: ValueList<'_>,
     sums: &mut [[u64; 3]],
 ) {
     let (lanes, middle) = (S::u32s::LEN, samples.middle(plan));
-    let texels = samples.level.level.texels();
+    let (texels, stride) = (samples.level.level.texels(), samples.level.level.stride());
+    let all = S::i32s::splat(simd, i32::try_from(samples.count).unwrap_or(i32::MAX));
+    let mut found = Counts::NONE;
     for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
-        let at = samples.centres(simd, pixels, middle);
-        let level = &samples.level;
-        let centres = [
-            at.around(simd, &level.x, samples.x.reach),
-            at.around(simd, &level.y, samples.y.reach),
-        ];
-        let counted = Counted::new(simd, samples, first, centres);
-        for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
-            if is_uncertain::<S>(counted.distance, lane) {
-                *sum = exact::<S, N>(simd, (plan, side), *pixel, list);
-                continue;
-            }
+        let centres = samples.centres_around(simd, pixels, middle);
+        found.count(simd, (samples, four), centres, (Covered::All, all));
+        for (sum, (first, counts)) in sums.iter_mut().zip(found.firsts.iter().zip(&found.in_texels)) {
             *sum = [0; 3];
-            for (texel, count) in counted.texels.iter().zip(&counted.counts) {
-                let [texel, count] = [texel, count].map(|of_lanes| of_lanes[lane % MAX_LANES]);
-                add(sum, texels[texel as usize], count, list.values);
+            for (step, shift) in [(0, 0), (stride, 16), (1, 32), (stride + 1, 48)] {
+                let count = counts >> shift & 0xFFFF;
+                add(sum, texels[(first + step) as usize], count, list.values);
             }
         }
+        put_exact::<S, N>(simd, (plan, side), found.uncertain, (pixels, list), sums);
     }
 }
 
@@ -131,19 +103,30 @@ fn sum_each<S: Simd, const N: usize>(
 ) {
     let (lanes, middle) = (S::u32s::LEN, samples.middle(plan));
     let texels = samples.level.level.texels();
-    let mut found = Found::<S, N>::new(simd);
+    let mut found = Found::<N>::NONE;
     for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
         found.find(simd, samples, pixels, middle);
-        for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
-            if found.is_uncertain(lane) {
-                *sum = exact::<S, N>(simd, (plan, side), *pixel, list);
-                continue;
-            }
+        for (lane, sum) in sums.iter_mut().enumerate() {
             *sum = [0; 3];
             for texel in &found.texels[..samples.count] {
                 add(sum, texels[texel[lane % MAX_LANES] as usize], 1, list.values);
             }
         }
+        put_exact::<S, N>(simd, (plan, side), found.uncertain, (pixels, list), sums);
+    }
+}
+
+/// Puts what those pixels count for which it was not certain where their samples lie.
+#[inline(always)]
+fn put_exact<S: Simd, const N: usize>(
+    simd: S,
+    plan: (&Plan<'_>, u32),
+    uncertain: Uncertain,
+    (pixels, list): (&[[u16; 2]], ValueList<'_>),
+    sums: &mut [[u64; 3]],
+) {
+    for lane in uncertain.lanes(pixels.len()) {
+        sums[lane] = exact::<S, N>(simd, plan, pixels[lane], list);
     }
 }
 
@@ -171,88 +154,13 @@ fn exact<S: Simd, const N: usize>(
 
 /// Adds what a texel counts, so many times.
 #[inline(always)]
-pub(super) fn add(sum: &mut [u64; 3], [r, g, b, _]: [u8; 4], count: u32, values: ByteValues<'_>) {
+pub(super) fn add(sum: &mut [u64; 3], [r, g, b, _]: [u8; 4], count: u64, values: ByteValues<'_>) {
     for (sum, byte) in sum.iter_mut().zip([r, g, b]) {
         let value = match values {
             ByteValues::Stored => u32::from(byte) << 8,
             ByteValues::Table(values) => values[usize::from(byte)],
         };
-        *sum += u64::from(value) * u64::from(count);
-    }
-}
-
-impl FirstTexel {
-    /// Where all samples lie in four texels at most; not of textures that go on for ever, which have no order.
-    fn of_few<const N: usize>(samples: &NearestSamples<'_, N>) -> Option<Self> {
-        const ONE: i32 = 1 << FRACTION_BITS;
-        let mut least = [0; 2];
-        for (least, axis) in least.iter_mut().zip([&samples.x, &samples.y]) {
-            let offsets = || axis.of_samples[..samples.count].iter().copied();
-            *least = offsets().min()?;
-            if offsets().max()? - *least >= ONE {
-                return None;
-            }
-        }
-        samples.endless.is_none().then_some(Self(least))
-    }
-}
-
-impl<S: Simd> Counted<S> {
-    /// Of pixels whose centres lie there, in fixed point.
-    #[inline(always)]
-    fn new<const N: usize>(
-        simd: S,
-        samples: &NearestSamples<'_, N>,
-        FirstTexel([left, top]): FirstTexel,
-        [x, y]: [S::i32s; 2],
-    ) -> Self {
-        let number = |value: i32| S::i32s::splat(simd, value);
-        let (column, row) = ((x + number(left)) >> FRACTION_BITS, (y + number(top)) >> FRACTION_BITS);
-        // From the edges behind these.
-        let right = x - ((column + number(1)) << FRACTION_BITS);
-        let down = y - ((row + number(1)) << FRACTION_BITS);
-        let fraction: S::i16s = number((1 << FRACTION_BITS) - 1).bitcast();
-        let mut distance = S::i16s::splat(simd, i16::MAX);
-        let (mut before, mut above, mut both) = (number(0), number(0), number(0));
-        let offsets = samples.x.of_samples.iter().zip(&samples.y.of_samples);
-        for (x, y) in offsets.take(samples.count) {
-            let (x, y) = (right + number(*x), down + number(*y));
-            // The upper halves are no distances, and nobody looks at them.
-            distance = distance
-                .min(x.bitcast::<S::i16s>() & fraction)
-                .min(y.bitcast::<S::i16s>() & fraction);
-            // What lies before an edge is below zero: one less for each.
-            before += x >> 31;
-            above += y >> 31;
-            both += (x & y) >> 31;
-        }
-        let all = number(i32::try_from(samples.count).unwrap_or(i32::MAX));
-        let counts = [
-            number(0) - both,
-            both - above,
-            both - before,
-            all + before + above - both,
-        ];
-        let mut counted = Self {
-            texels: [[0; MAX_LANES]; 4],
-            counts: [[0; MAX_LANES]; 4],
-            distance,
-        };
-        let level = samples.level.level;
-        let last = [level.width(), level.height()].map(|size| size.cast_signed() - 1);
-        let last: S::i16s = number(last[0] | last[1] << 16).bitcast();
-        let stride: S::i16s = number(1 | level.stride().cast_signed() << 16).bitcast();
-        let steps = [(0, 0), (1, 0), (0, 1), (1, 1)];
-        for (i, ((right, down), count)) in steps.into_iter().zip(counts).enumerate() {
-            let (column, row) = (column + number(right), row + number(down));
-            let at: S::i16s = (column & number(0xFFFF) | row << 16).bitcast();
-            let inside = at.max(S::i16s::splat(simd, 0)).min(last);
-            let texel: S::u32s = inside.pairwise_dot_product(stride).bitcast();
-            texel.store_slice(&mut counted.texels[i][..S::u32s::LEN]);
-            let count: S::u32s = count.bitcast();
-            count.store_slice(&mut counted.counts[i][..S::u32s::LEN]);
-        }
-        counted
+        *sum += u64::from(value) * count;
     }
 }
 
@@ -301,7 +209,7 @@ mod tests {
                 assert_eq!(found, expected, "{name}: {filter:?} {grid:?} {inside:?}");
             }
             let samples = NearestSamples::<MANY>::of_places(&plan, grid.side, &inside);
-            let counted = samples.and_then(|samples| FirstTexel::of_few(&samples));
+            let counted = samples.and_then(|samples| FourTexels::of(&samples));
             *(if counted.is_some() { &mut few } else { &mut other }) += 1;
             Ok(())
         })

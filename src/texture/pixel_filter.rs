@@ -10,15 +10,17 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8};
 
 use super::block_weights::{LARGE, rows, rows_beyond};
+use super::covered::Covered;
 use super::cubic::TexelWeights;
 use super::filter_plan::{PixelList, Plan};
 use super::fixed_point::{MASS, MASS_BITS};
 use super::folded_blocks::Folded;
+use super::nearest_counts::FourTexels;
 use super::nearest_sums::{self, FEW, MANY, NearestSamples};
 use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
 use super::simd_channels::{self, FromColors, Spread};
-use super::tent_weights::{Covered, weigh};
-use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
+use super::tent_weights::weigh;
+use super::texel_coordinates::{Positions, columns_and_rows};
 use super::{PixelSampling, Wrap, anisotropic_filter, block_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
@@ -132,10 +134,18 @@ fn sum_nearest_of<const N: usize>(
     list: PixelList<'_>,
     sums: &mut [[u32; 4]],
 ) -> bool {
+    /// Fewer samples are read as quickly as counted.
+    const MANY_SAMPLES: u32 = 9;
     let Some(samples) = NearestSamples::<N>::new(plan, side) else {
         return false;
     };
-    dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, list, sums));
+    let four = (side * side >= MANY_SAMPLES)
+        .then(|| FourTexels::of(&samples))
+        .flatten();
+    match four {
+        Some(four) => dispatch!(level, simd => nearest_sums::sum_counted(simd, plan, (&samples, four), list, sums)),
+        None => dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, list, sums)),
+    }
     true
 }
 
@@ -277,7 +287,7 @@ fn sum_texels<S: Simd, const ENDLESS: bool>(
         let side = S::f32s::splat(simd, scale.side as f32);
         let at = Positions::new(simd, [columns * side, rows * side], middle);
         let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
-        let (covered, count) = cover(simd, scale, masks);
+        let (covered, count) = Covered::new(simd, scale.side * scale.side, masks);
         let total = count << scale.sample_bits;
         let number = |value| S::i32s::splat(simd, value);
         let part = coarser.as_ref().map_or(number(0), |coarser| {
@@ -307,24 +317,6 @@ fn sum_texels<S: Simd, const ENDLESS: bool>(
             *sum = scaled.bitcast::<fearless_simd::u32x4<S>>().to_array();
         }
     }
-}
-
-/// The samples of a vector of pixels that take part, and how many they are.
-#[inline(always)]
-fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, S::i32s) {
-    let count = scale.side * scale.side;
-    let Some(masks) = masks else {
-        return (Covered::All, S::i32s::splat(simd, count.cast_signed()));
-    };
-    let possible = if count < 64 { (1 << count) - 1 } else { u64::MAX };
-    let (mut low, mut high, mut counts) = ([0; MAX_LANES], [0; MAX_LANES], [0; MAX_LANES]);
-    for (i, mask) in masks.iter().enumerate().take(MAX_LANES) {
-        let mask = mask & possible;
-        [low[i], high[i]] = simd_channels::halves(mask);
-        counts[i] = mask.count_ones();
-    }
-    let vector = |numbers: &[u32; MAX_LANES]| S::u32s::from_slice(simd, &numbers[..S::u32s::LEN]);
-    (Covered::Some(vector(&low), vector(&high)), vector(&counts).bitcast())
 }
 
 impl<S: Simd, const ENDLESS: bool> Blocks<S, ENDLESS> {

@@ -39,11 +39,16 @@ pub(super) struct SampleVector<S: Simd> {
 /// The texels of a level and where to read them.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
-    /// The texels from the first one on, and from the second row on; equally many.
-    upper: &'a [[u8; 4]],
-    lower: &'a [[u8; 4]],
+    rows: RowPairs<'a>,
     cells: &'a Cells,
     mass: i32,
+}
+
+/// The texels of a level from the first one on, and from the second row on; equally many.
+#[derive(Clone, Copy)]
+pub(super) struct RowPairs<'a> {
+    upper: &'a [[u8; 4]],
+    lower: &'a [[u8; 4]],
 }
 
 /// Filters samples of one tap each, which read the nearest texel or the four around them.
@@ -225,11 +230,8 @@ impl Cells {
 impl<'a> Source<'a> {
     #[inline(always)]
     pub(super) fn new(level: &GridLevel<'a>, cells: &'a Cells) -> Self {
-        let (texels, stride) = (level.level.texels(), level.level.stride() as usize);
-        let count = texels.len() - stride;
         Self {
-            upper: &texels[..count],
-            lower: &texels[stride..][..count],
+            rows: RowPairs::new(level),
             cells,
             mass: level.mass,
         }
@@ -238,7 +240,7 @@ impl<'a> Source<'a> {
     /// The first texels of four samples.
     #[inline(always)]
     fn four<S: Simd>(&self, simd: S, i: usize) -> u8x16<S> {
-        let texel = |i: usize| u32::from_le_bytes(self.upper[self.cells.offsets[i % BLOCK] as usize]);
+        let texel = |i: usize| u32::from_le_bytes(self.rows.upper[self.cells.offsets[i % BLOCK] as usize]);
         u32x4::simd_from(simd, [texel(i), texel(i + 1), texel(i + 2), texel(i + 3)]).bitcast()
     }
 
@@ -246,10 +248,29 @@ impl<'a> Source<'a> {
     #[inline(always)]
     pub(super) fn bilinear<S: Simd>(&self, simd: S, spread: Spread<S>, i: usize) -> i32x8<S> {
         let i = i % BLOCK;
-        let at = self.cells.offsets[i] as usize;
+        self.rows
+            .columns(simd, spread, self.cells.offsets[i], self.cells.weights[i])
+    }
+}
+
+impl<'a> RowPairs<'a> {
+    #[inline(always)]
+    pub(super) fn new(level: &GridLevel<'a>) -> Self {
+        let (texels, stride) = (level.level.texels(), level.level.stride() as usize);
+        let count = texels.len() - stride;
+        Self {
+            upper: &texels[..count],
+            lower: &texels[stride..][..count],
+        }
+    }
+
+    /// The 2 x 2 texels from number `first` on with their weights, as [`Spread::columns`] has them.
+    #[inline(always)]
+    pub(super) fn columns<S: Simd>(&self, simd: S, spread: Spread<S>, first: u32, weights: u64) -> i32x8<S> {
+        let at = first as usize;
         let upper: u8x16<S> = u64x2::simd_from(simd, [row(self.upper, at), 0]).bitcast();
         let lower: u8x16<S> = u64x2::simd_from(simd, [row(self.lower, at), 0]).bitcast();
-        spread.columns(simd, upper.zip_low(lower), self.cells.weights[i])
+        spread.columns(simd, upper.zip_low(lower), weights)
     }
 }
 

@@ -16,6 +16,7 @@
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
+use super::covered::Covered;
 use super::filter_plan::Axis;
 use super::sample_offsets::{Footing, Lines, Offsets, Scale, TEXELS};
 use super::texel_coordinates::Positions;
@@ -34,14 +35,6 @@ pub(super) struct Weighed<S: Simd> {
     pub(super) corners: [S::i32s; 2],
     /// In rows from the first texel.
     pub(super) weights: Products<S>,
-}
-
-/// Which samples of a vector of pixels take part.
-#[derive(Clone, Copy)]
-pub(super) enum Covered<S: Simd> {
-    All,
-    /// Bit by bit, the lower and the upper 32.
-    Some(S::u32s, S::u32s),
 }
 
 /// Samples of one axis relative to the first texel, twice in each pair of 16-bit lanes.

@@ -21,7 +21,7 @@ use fearless_simd::prelude::*;
 
 use super::covered::Covered;
 use super::fixed_point::FRACTION_BITS;
-use super::nearest_sums::{NearestSamples, Uncertain};
+use super::nearest_samples::{NearestSamples, Uncertain};
 use super::simd_channels::in_columns;
 use super::texel_coordinates::MAX_LANES;
 

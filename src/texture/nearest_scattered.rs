@@ -17,7 +17,8 @@ use fearless_simd::{Level, Simd, dispatch, i16x32, i32x16, u8x16, u8x32, u16x8, 
 use super::PixelSampling;
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::fixed_point::FRACTION_BITS;
-use super::nearest_sums::{AWAY, FARTHEST, LARGEST, LIST, MANY, UNCERTAIN, exact_colors};
+use super::nearest_samples::{AWAY, FARTHEST, LARGEST, LIST, MANY, UNCERTAIN};
+use super::nearest_sums::exact_colors;
 use super::nearest_values::{ByteValues, ValueList, add};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
 

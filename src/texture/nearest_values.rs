@@ -11,7 +11,8 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::covered::Covered;
 use super::filter_plan::Plan;
 use super::nearest_counts::{Counts, FourTexels};
-use super::nearest_sums::{FEW, Found, MANY, NearestSamples, Uncertain, exact_colors};
+use super::nearest_samples::{FEW, MANY, NearestSamples, Uncertain};
+use super::nearest_sums::{Found, exact_colors};
 use super::texel_coordinates::MAX_LANES;
 
 /// Some pixels, where their samples lie, and what a byte counts.

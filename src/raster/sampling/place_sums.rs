@@ -6,12 +6,15 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x16};
+use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x8, u32x16};
 
 use crate::raster::sampling::positions::Position;
 
 /// Samples whose places are added up together.
 const TOGETHER: usize = 16;
+
+/// Pixels whose places are added up together.
+const PIXELS: usize = 8;
 
 /// Samples that a part of a table stands for.
 const BYTE: usize = 8;
@@ -88,6 +91,23 @@ impl PlaceSums {
         sums
     }
 
+    /// [`PlaceSums::places_of_all`] of up to eight pixels of so many samples each, one pixel after the other: what columns add up to
+    /// in the lower half of each lane, rows in the upper half.
+    #[inline(always)]
+    pub(crate) fn places_of_pixels<S: Simd>(simd: S, count: usize, places: &[Position]) -> u32x8<S> {
+        if count == TOGETHER
+            && let Some(places) = places.first_chunk::<{ PIXELS * TOGETHER }>()
+        {
+            return places_of_eight(simd, places.as_chunks().0);
+        }
+        let mut sums = [0; PIXELS];
+        for (sum, places) in sums.iter_mut().zip(places.chunks_exact(count.max(1))) {
+            let [columns, rows] = Self::places_of_all(simd, places);
+            *sum = columns | rows << 16;
+        }
+        u32x8::simd_from(simd, sums)
+    }
+
     #[inline(always)]
     fn of_sixteen<S: Simd>(simd: S, places: &[Position; TOGETHER], bits: u64) -> Self {
         let (first, second) = u8x32::from_slice(simd, places.as_flattened()).widen();
@@ -107,6 +127,23 @@ impl PlaceSums {
             ],
         }
     }
+}
+
+/// As [`PlaceSums::places_of_pixels`] of eight pixels with [`TOGETHER`] samples each.
+#[inline(always)]
+fn places_of_eight<S: Simd>(simd: S, pixels: &[[Position; TOGETHER]]) -> u32x8<S> {
+    // Columns and rows of every other sample, as numbers of 16 bits that are added up in pairs.
+    let halves = |i: usize| -> u32x8<S> {
+        let (first, second) = u8x32::from_slice(simd, pixels[i].as_flattened()).widen();
+        (first + second).bitcast()
+    };
+    // Lane by lane what two vectors add up to, those of the first and the second in turn.
+    let both = |first: u32x8<S>, second: u32x8<S>| first.zip_low(second) + first.zip_high(second);
+    let fours = [
+        both(both(halves(0), halves(4)), both(halves(2), halves(6))),
+        both(both(halves(1), halves(5)), both(halves(3), halves(7))),
+    ];
+    both(fours[0], fours[1])
 }
 
 /// The places of up to sixteen samples, and zeros.
@@ -190,6 +227,22 @@ mod tests {
                     (PlaceSums::of_all(simd, &places), PlaceSums::places_of_all(simd, &places))
                 });
                 assert_eq!(found, (all, all.places), "{name}: all of {places:?}");
+            }
+            let count = *u.choose(&[16, 16, 5, 33])?;
+            let pixels = places.chunks_exact(count).take(PIXELS);
+            let expected: Vec<u32> = pixels
+                .map(|places| {
+                    let of = |axis: usize| places.iter().map(|place| u32::from(place[axis])).sum::<u32>();
+                    of(0) | of(1) << 16
+                })
+                .collect();
+            for (name, level) in simd::tested() {
+                let found = dispatch!(level, simd => PlaceSums::places_of_pixels(simd, count, &places).to_array());
+                assert_eq!(
+                    found[..expected.len()],
+                    expected,
+                    "{name}: pixels of {count} of {places:?}"
+                );
             }
             Ok(())
         })

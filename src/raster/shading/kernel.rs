@@ -43,7 +43,7 @@ pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [f64x8<
 
 /// Whole numbers as floats: see [`WHOLE`].
 #[inline(always)]
-fn number<S: Simd>(whole: u32x8<S>) -> f64x8<S> {
+pub(super) fn number<S: Simd>(whole: u32x8<S>) -> f64x8<S> {
     let (low, high) = whole.widen();
     let bits: u64x8<S> = low.combine(high) | WHOLE.to_bits();
     bits.bitcast::<f64x8<S>>() - WHOLE

@@ -18,7 +18,7 @@ use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
-use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word};
+use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word, number};
 use crate::raster::shading::kind::Shade;
 use crate::rules::Rules;
 use crate::simd;
@@ -91,25 +91,27 @@ fn means_with<S: Simd>(
     let planes = colors.planes;
     let shown = TintedPlanes::new(planes, placed.tints);
     let limits = shown.spread_limits(side);
-    let count = u32::try_from(placed.count).unwrap_or(0);
+    let per_sample = 1.0 / f64::from(u32::try_from(placed.count.max(1)).unwrap_or(u32::MAX));
     let mut spread = PlaceSpreads::of_all(simd, placed.inside(0));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
         let at = block * LANES;
         let places = &placed.pixels.places[at..at + values.len()];
-        if !placed.are_same() {
+        let means = if placed.are_same() {
+            spread.means(simd)
+        } else if is_linear {
             for i in 0..places.len() {
-                let inside = placed.inside(at + i);
-                // What is stored does not depend on squares.
-                if is_linear {
-                    spread.set(i, &PlaceSums::of_all(simd, inside));
-                } else {
-                    spread.set_mean(i, count, PlaceSums::places_of_all(simd, inside));
-                }
+                spread.set(i, &PlaceSums::of_all(simd, placed.inside(at + i)));
             }
-        }
+            spread.means(simd)
+        } else {
+            // What is stored does not depend on squares.
+            let inside = placed.part(at..at + places.len()).inside;
+            let both = PlaceSums::places_of_pixels(simd, placed.count, inside);
+            [number(both & 0xFFFF) * per_sample, number(both >> 16) * per_sample]
+        };
         let [columns, rows] = columns_and_rows(simd, places);
-        let right = columns * side + (first[0] - planes.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
-        let down = rows * side + (first[1] - planes.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
+        let right = columns * side + (first[0] - planes.pivot[0]) + means[0];
+        let down = rows * side + (first[1] - planes.pivot[1]) + means[1];
         let (pixels, certain) = shown.pixels(
             [right, down],
             &limits,
@@ -292,6 +294,15 @@ impl PlaceSpreads {
         spread
     }
 
+    /// The mean columns and rows.
+    #[inline(always)]
+    fn means<S: Simd>(&self, simd: S) -> [f64x8<S>; 2] {
+        [
+            f64x8::simd_from(simd, self.mean[0]),
+            f64x8::simd_from(simd, self.mean[1]),
+        ]
+    }
+
     /// Of values that change so much from one point of the lattice to the next, across and down, the mean squares of how far they are
     /// from their mean.
     #[inline(always)]
@@ -305,22 +316,14 @@ impl PlaceSpreads {
     /// In the lane of a pixel, or of a part of one, of whose samples this is known.
     #[inline(always)]
     pub(super) fn set(&mut self, lane: usize, sums: &PlaceSums) {
-        self.set_mean(lane, sums.count, sums.places);
         let per_sample = 1.0 / f64::from(sums.count.max(1));
         let mean = |sum: u32| f64::from(sum) * per_sample;
-        let [x, y] = [self.mean[0][lane], self.mean[1][lane]];
+        let [x, y] = sums.places.map(mean);
+        (self.mean[0][lane], self.mean[1][lane]) = (x, y);
         let [xx, xy, yy] = sums.squares;
         self.squares[0][lane] = mean(xx) - x * x;
         self.squares[1][lane] = mean(xy) - x * y;
         self.squares[2][lane] = mean(yy) - y * y;
-    }
-
-    /// The mean alone.
-    #[inline(always)]
-    fn set_mean(&mut self, lane: usize, count: u32, [columns, rows]: [u32; 2]) {
-        let per_sample = 1.0 / f64::from(count.max(1));
-        self.mean[0][lane] = f64::from(columns) * per_sample;
-        self.mean[1][lane] = f64::from(rows) * per_sample;
     }
 }
 

@@ -72,12 +72,38 @@ impl Place for Strata {
 /// The side of pixels of 16 samples, which are placed in registers.
 const SIDE_OF_SIXTEEN: u32 = 4;
 
+/// Each of the 16 columns of such a pixel is `1 << 4` points wide.
+const WIDTH_BITS: u32 = 4;
+
+/// All that can become of four numbers, in points: their hash looks at seven bits of a seed only, of which [`order_of_four`] makes a
+/// number.
+static ORDERS_OF_FOUR: [[u32; 4]; 128] = {
+    let mut orders = [[0; 4]; 128];
+    let mut order = 0;
+    while order < 128_u32 {
+        let mut i = 0;
+        while i < 4 {
+            let [mixed, middle, high, low] = [order & 3, order >> 2 & 3, order >> 4 & 1, order >> 5];
+            let seed = low | (mixed ^ low) << 8 | middle << 23 | high << 28;
+            orders[order as usize][i as usize] = permuted(i, 4, seed) << WIDTH_BITS;
+            i += 1;
+        }
+        order += 1;
+    }
+    orders
+};
+
+/// What a seed makes of four numbers.
+#[inline(always)]
+fn order_of_four(seed: u32) -> &'static [u32; 4] {
+    let mixed = (seed ^ seed >> 8 ^ seed >> 16) & 3;
+    let order = mixed | (seed >> 23 & 3) << 2 | (seed >> 28 & 1) << 4 | (seed & 3) << 5;
+    &ORDERS_OF_FOUR[order as usize]
+}
+
 /// As [`Strata::place_with`] where pixels have [`TOGETHER`] samples.
 #[inline(always)]
 fn place_sixteen<S: Simd>(simd: S, pixels: &[u64], places: &mut Vec<Position>) {
-    // Each of the 16 columns is as wide as so many points, 1 << 4.
-    const WIDTH_BITS: u32 = 4;
-    let numbers = u32x8::simd_from(simd, [0, 1, 2, 3, 0, 1, 2, 3]);
     // The column and the row that each sample's cell begins with.
     let mut corners = [0; TOGETHER];
     for (corner, sample) in corners.iter_mut().zip(0..) {
@@ -86,13 +112,9 @@ fn place_sixteen<S: Simd>(simd: S, pixels: &[u64], places: &mut Vec<Position>) {
     let corners = u32x16::simd_from(simd, corners);
     for (random, places) in with_places(pixels, TOGETHER, places) {
         let [across, down] = seeds_of(random);
-        let seeds = u32x4::splat(simd, across).combine(u32x4::splat(simd, down));
-        let shifts = seeds & u32x8::splat(simd, SIDE_OF_SIXTEEN - 1);
-        let orders = eight_permuted(simd, numbers, SIDE_OF_SIXTEEN, [seeds, shifts]) << WIDTH_BITS;
-        let (across, down) = orders.split();
         // The order of columns moves rows, for each row of samples alike; that of rows moves columns, along a row alike.
-        let row = across << 16;
-        let [first, second, third, fourth] = down.to_array();
+        let row = u32x4::from_slice(simd, order_of_four(across)) << 16;
+        let [first, second, third, fourth] = *order_of_four(down);
         let upper = (row + u32x4::splat(simd, first)).combine(row + u32x4::splat(simd, second));
         let lower = (row + u32x4::splat(simd, third)).combine(row + u32x4::splat(simd, fourth));
         let starts: u16x32<S> = (corners + upper.combine(lower)).bitcast();
@@ -201,9 +223,8 @@ fn eight_permuted<S: Simd>(simd: S, numbers: u32x8<S>, count: u32, [seed, shifts
     moved.simd_ge(count).select(moved - count, moved)
 }
 
-/// One number of [`eight_permuted`]: what that is tested against.
-#[cfg(test)]
-fn permuted(i: u32, count: u32, seed: u32) -> u32 {
+/// One number of [`eight_permuted`].
+const fn permuted(i: u32, count: u32, seed: u32) -> u32 {
     let mask = count.next_power_of_two() - 1;
     let mut at = i;
     loop {
@@ -291,6 +312,17 @@ mod tests {
             Ok(())
         })
         .budget_ms(200);
+    }
+
+    #[test]
+    fn orders_of_four_are_permutations() {
+        arbtest::arbtest(|u| {
+            let seed = u.arbitrary()?;
+            let expected = [0, 1, 2, 3].map(|i| permuted(i, 4, seed) << WIDTH_BITS);
+            assert_eq!(*order_of_four(seed), expected, "by {seed:x}");
+            Ok(())
+        })
+        .budget_ms(100);
     }
 
     #[test]

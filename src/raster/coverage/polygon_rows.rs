@@ -110,25 +110,29 @@ impl RowScanner {
         let (rows, end) = (within.y.intersection(outline.samples.y), within.x.end);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
-        // All rows at once, unless so many edges might cross them that their crossings take too much memory.
-        let step = i32::try_from(MAX_CROSSINGS / outline.edges.len().max(1));
-        let step = step.unwrap_or(i32::MAX).max(1);
-        let mut start = rows.start;
-        while start < rows.end {
-            let some = Span {
-                start,
-                end: rows.end.min(start.saturating_add(step)),
-            };
-            let edges = outline.edges_in(all, some);
-            self.numbers.count(edges.clone(), some);
-            if some == rows && self.numbers.are_plain() {
+        let mut rest = rows;
+        while !rest.is_empty() {
+            let edges = outline.edges_in(all, rest);
+            self.numbers.count(edges.clone(), rest);
+            if rest == rows && self.numbers.are_plain() {
                 self.plain
                     .scan(edges, grid, SpanRect { y: rows, ..within }, &mut store.spans);
                 break;
             }
-            self.sort_crossings(edges, grid, some, end);
+            // All rows at once, unless their crossings take too much memory.
+            let some = Span {
+                end: rest.start + self.rows_at_once(),
+                ..rest
+            };
+            if some == rest {
+                self.sort_crossings(edges, grid, rest, end);
+            } else {
+                let edges = outline.edges_in(all, some);
+                self.numbers.count(edges.clone(), some);
+                self.sort_crossings(edges, grid, some, end);
+            }
             single &= self.spans_of_rows(outline.rule, end, store);
-            start = some.end;
+            rest.start = some.end;
         }
         store.starts.push(index(store.spans.len()));
         Stored {
@@ -137,6 +141,20 @@ impl RowScanner {
             first,
             single,
         }
+    }
+
+    /// So many of the rows that were counted have no more crossings together than are held at once; one at least.
+    fn rows_at_once(&self) -> i32 {
+        let mut room = MAX_CROSSINGS;
+        let fits = |number: &u32| match room.checked_sub(*number as usize) {
+            Some(left) => {
+                room = left;
+                true
+            }
+            None => false,
+        };
+        let count = self.numbers.numbers().take_while(fits).count();
+        i32::try_from(count.max(1)).unwrap_or(i32::MAX)
     }
 
     /// Adds the spans of the rows whose crossings were found; whether no row has more than one.
@@ -435,6 +453,47 @@ mod tests {
             plain > 20 && sorted > 20,
             "both kinds were looked at: {plain} and {sorted}"
         );
+    }
+
+    #[test]
+    fn rows_of_too_many_crossings_are_found_a_few_at_a_time() {
+        let grid = SubpixelGrid::new(1);
+        let extent = |end| Span { start: 0, end };
+        let (frame, edges) = (
+            SpanRect {
+                x: extent(90),
+                y: extent(60),
+            },
+            80_000,
+        );
+        let points = (0..edges).map(|i| {
+            let x = f64::from(i * 7919 % 9001) / 100.0;
+            DVec2::new(x, if i % 2 == 0 { -1.0 } else { 61.0 })
+        });
+        let mut all = Vec::new();
+        let mut builder = OutlineBuilder::new(grid, frame, &mut all);
+        builder.contour(points);
+        let outline = builder.finish(FillRule::EvenOdd).expect("it covers something");
+        let outline = outline.with_edges(&all);
+        let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
+        let found = scanner.scan(outline, grid, frame, &mut store);
+        assert!(
+            scanner.crossings.len() < MAX_CROSSINGS,
+            "not all of them were held at once"
+        );
+        let mut several = 0;
+        for row in frame.y.start..frame.y.end {
+            let y = Span {
+                start: row,
+                end: row + 1,
+            };
+            let (mut alone, mut of_row) = (RowScanner::default(), SpanStore::default());
+            let stored = alone.scan(outline, grid, SpanRect { y, ..frame }, &mut of_row);
+            let expected = of_row.get(stored).of_row(row);
+            several += usize::from(expected.len() > 1);
+            assert_eq!(store.get(found).of_row(row), expected, "row {row}");
+        }
+        assert!(several > 20, "{several} rows have more than one span");
     }
 
     /// Contours like letters and like needles, side by side or anywhere.

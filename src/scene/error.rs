@@ -27,6 +27,9 @@ pub enum Problem {
     /// The file itself could not be read.
     #[error("cannot read: {0}; give the path of an SVG file")]
     Unreadable(#[from] ResourceError),
+    /// Meant to be built in, with what to give instead.
+    #[error("no such scene in the gallery; {0}")]
+    NotInGallery(String),
     /// No bytes, or only blanks.
     #[error("the document is empty; save the drawing again")]
     Empty,

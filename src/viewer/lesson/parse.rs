@@ -199,14 +199,13 @@ fn scene(value: &Value<'_>, folder: Option<&Path>) -> Found<SceneSource> {
     let missing = |cure: &str| mistake(value.span(), format!("{}: no such scene; {cure}", short(&address)));
     match (source, folder) {
         (SceneSource::Gallery(index), _) => Ok(SceneSource::Gallery(index)),
-        (SceneSource::File(_), _) if address.starts_with("gallery:") => {
-            let some = gallery::SCENES.first().map_or("", |scene| scene.name);
-            missing(&format!("give one of the gallery, such as gallery:{some}"))
-        }
         (SceneSource::File(path), Some(folder)) if folder.join(&path).is_file() => {
             Ok(SceneSource::File(folder.join(path)))
         }
-        (SceneSource::File(_), _) => missing("give a path from the lesson's folder, or gallery:NAME"),
+        (SceneSource::File(_), _) => match address.strip_prefix("gallery:") {
+            Some(name) => missing(&gallery::cure(name)),
+            None => missing("give a path from the lesson's folder, or gallery:NAME"),
+        },
     }
 }
 

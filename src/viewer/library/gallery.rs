@@ -146,3 +146,42 @@ impl Resources for Textures {
             .ok_or(ResourceError::NotFound)
     }
 }
+
+/// What to give instead of a name that no scene has: those that hold it in theirs are meant, if there are any.
+pub(in crate::viewer) fn cure(name: &str) -> String {
+    let name = name.to_lowercase();
+    let mut meant = SCENES
+        .iter()
+        .filter(|scene| scene.name.contains(name.trim_end_matches('/')));
+    match (meant.next(), meant.count()) {
+        (Some(scene), 0) => format!("is gallery:{} meant?", scene.name),
+        (Some(scene), others) => format!("give one of {} in full, such as gallery:{}", others + 1, scene.name),
+        (None, _) => {
+            let some = SCENES.first().map_or("", |scene| scene.name);
+            format!("give one that is there, such as gallery:{some}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cures_name_scenes_that_are_meant() {
+        let first = SCENES[0].name;
+        let study = SCENES.iter().filter(|scene| scene.name.starts_with("study/")).count();
+        for (name, expected) in [
+            ("02_FOX", "is gallery:illustration/02_fox.svg meant?".to_owned()),
+            (
+                "nothing like it",
+                format!("give one that is there, such as gallery:{first}"),
+            ),
+        ] {
+            assert_eq!(cure(name), expected, "{name}");
+        }
+        let folder = cure("study/");
+        assert!(folder.starts_with(&format!("give one of {study} in full")), "{folder}");
+        assert!(folder.contains("such as gallery:study/"), "{folder}");
+    }
+}

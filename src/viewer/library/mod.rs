@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::raster::Framebuffer;
-use crate::scene::{DialectChoice, Progress, ReadOptions, Scene, SceneError};
+use crate::scene::{DialectChoice, Problem, Progress, ReadOptions, Scene, SceneError};
 use crate::viewer::view::camera::Camera;
 use crate::{plain, scene};
 
@@ -234,7 +234,15 @@ impl SceneSource {
     /// As [`scene::load_watched`].
     pub fn read_watched(&self, dialect: DialectChoice, progress: &Progress) -> Result<Scene, SceneError> {
         match self {
-            Self::File(path) => scene::load_watched(path, dialect, progress),
+            Self::File(path) => match in_gallery(path) {
+                Some(name) => Err(SceneError {
+                    file: path.display().to_string(),
+                    location: None,
+                    line: None,
+                    problem: Problem::NotInGallery(gallery::cure(name)),
+                }),
+                None => scene::load_watched(path, dialect, progress),
+            },
             Self::Gallery(index) => {
                 let (name, document) = match gallery::SCENES.get(*index) {
                     Some(scene) => (scene.name, scene.document),
@@ -248,6 +256,12 @@ impl SceneSource {
 
 /// Starts the address of a built-in scene.
 const GALLERY_PREFIX: &str = "gallery:";
+
+/// The name after the prefix in the path of a file that there is not.
+fn in_gallery(path: &Path) -> Option<&str> {
+    let name = path.to_str()?.strip_prefix(GALLERY_PREFIX)?;
+    fs::symlink_metadata(path).is_err().then_some(name)
+}
 
 /// One scene, by its name in the gallery or its file's.
 pub(in crate::viewer) fn entry_of(source: SceneSource) -> SceneEntry {
@@ -297,11 +311,9 @@ pub fn list_scenes(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
         } else {
             let source = SceneSource::from_address(path);
             if matches!(&source, SceneSource::File(path) if fs::symlink_metadata(path).is_err()) {
-                problems.push(match path.to_str() {
-                    Some(address) if address.starts_with(GALLERY_PREFIX) => {
-                        format!("{address}: no such scene in the gallery; without a path it opens, and G shows all")
-                    }
-                    _ => format!("{}: no such file; give an SVG file or a folder of them", path.display()),
+                problems.push(match in_gallery(path) {
+                    Some(name) => format!("{}: {}", path.display(), Problem::NotInGallery(gallery::cure(name))),
+                    None => format!("{}: no such file; give an SVG file or a folder of them", path.display()),
                 });
                 continue;
             }
@@ -401,7 +413,12 @@ mod tests {
         for other in ["basic/test4.svg", "gallery:basic", "gallery:basic/test4.svg.svg"] {
             assert_eq!(of(other), SceneSource::File(other.into()), "a path");
         }
+        let read = of("gallery:study")
+            .read(DialectChoice::Auto)
+            .map(|_| ())
+            .map_err(|error| error.to_string());
         let (scenes, problems) = list_scenes(&["gallery:study".into()]);
+        assert_eq!(read.as_ref().err(), problems.first(), "the same in the window");
         assert!(
             scenes.is_empty() && problems[0].contains("no such scene in the gallery"),
             "{problems:?}"

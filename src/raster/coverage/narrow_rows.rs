@@ -68,41 +68,23 @@ impl<const SIDE: usize> Samples<SIDE> {
     /// A shift to the right divides by it.
     const SHIFT: u32 = SIDE.trailing_zeros();
 
-    /// The sample column of each bit of a window's masks, four bits for each sample row.
-    const COLUMNS: [i8; 64] = {
-        let mut columns = [0; 64];
-        let (mut bit, mut left, along) = (0, 0, if SIDE == 2 { 2 } else { 4 });
-        while bit < 64 {
-            columns[bit] = left + [0, 1, 2, 3][bit % 4];
-            bit += 1;
-            left += if bit % MASK_BITS == 0 { along } else { 0 };
-        }
-        columns
-    };
-
-    /// The bits of these that stand for samples.
-    const BITS: u64 = {
-        let mut bits = 0;
-        let mut bit = 0;
-        while bit < 64 {
-            let (column, row) = (bit % 4, bit % MASK_BITS / 4);
-            bits |= if column < SIDE && row < SIDE { 1 << bit } else { 0 };
-            bit += 1;
-        }
-        bits
-    };
-
-    /// Masks with `SIDE` bits for each sample row instead of four.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "no instruction, mostly")]
-    fn close(masks: u64) -> u64 {
-        if SIDE == 2 {
-            (masks | masks >> 2) & 0x000F_000F_000F_000F
-        } else {
-            masks
-        }
-    }
+    /// The bits of a window's masks that stand for samples.
+    const BITS: u64 = if SIDE == 2 { 0x000F_000F_000F_000F } else { u64::MAX };
 }
+
+/// The sample column of each bit of the masks of four pixels of 4 x 4 samples.
+const COLUMNS_OF_FOUR: [i8; 64] = {
+    let mut columns = [0; 64];
+    let mut bit = 0;
+    while bit < 64_u8 {
+        columns[bit as usize] = (bit / 16 * 4 + bit % 4).cast_signed();
+        bit += 1;
+    }
+    columns
+};
+
+/// Of 2 x 2 samples.
+const COLUMNS_OF_TWO: [i8; 16] = [0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7, 6, 7];
 
 /// The spans of two sample rows twice, or of four.
 #[inline(always)]
@@ -246,7 +228,7 @@ pub(crate) fn each_window<S: Simd, const SIDE: usize>(
         visit(Window {
             x,
             live,
-            masks: Samples::<SIDE>::close(masks & Samples::<SIDE>::BITS & live),
+            masks: masks & Samples::<SIDE>::BITS & live,
         });
         from = end;
     }
@@ -266,10 +248,19 @@ fn before<S: Simd, const SIDE: usize>(simd: S, columns: i32x4<S>, x: usize) -> u
     let inside = (columns - number((x * SIDE) as i32))
         .max(number(0))
         .min(number((GROUP * SIDE) as i32));
-    // A byte for each sample of a pixel: four times the number of its row.
     let twice = inside | inside << 8;
+    if SIDE == 2 {
+        // A byte for each sample of a pixel: twice the number of its row.
+        let first: u64x2<S> = twice.bitcast();
+        let both = (first | first >> 16) & u64::from(u32::MAX);
+        let rows: i8x16<S> = (both | both << 32).bitcast();
+        let bits = i8x16::simd_from(simd, COLUMNS_OF_TWO).simd_lt(rows).to_bitmask();
+        // From four bits for each pixel to sixteen.
+        return (bits | bits << 12 | bits << 24 | bits << 36) & Samples::<SIDE>::BITS;
+    }
+    // Four times the number of its row.
     let rows: i8x16<S> = (twice | twice << 16).bitcast();
-    let samples = i8x64::simd_from(simd, Samples::<SIDE>::COLUMNS);
+    let samples = i8x64::simd_from(simd, COLUMNS_OF_FOUR);
     samples.simd_lt(i8x64::block_splat(rows)).to_bitmask()
 }
 

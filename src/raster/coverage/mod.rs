@@ -42,7 +42,7 @@
 //! | 4 x 4 samples as runs and masks too | 8 to 44 % of scenes at rate 16, as measured before the one form: masks four at a time are most of their speed |
 //! | one source of spans that holds any shape, moved by value, rather than one type for each | 6 % of a flat scene at rate 16 with AVX2, 4 % with SSE2 |
 //! | the next span of each sample row looked up again, rather than kept | 15 % of slivers at rate 16 |
-//! | triangles at all rates by four rows at once, as 4 x 4 samples have them | 3 % of a flat scene at rate 1 |
+//! | triangles at all rates by four sample rows at once, as [`narrow_rows`] has them | 3 % of a flat scene at rate 1 |
 //!
 //! The one form itself costs more than spans did where masks are long or have to be cut into runs again: 15 % of a flat scene at
 //! rate 100, 12 % of translucent layers at rate 4 in linear light; it saves 11 % of a textured scene there, 3 % of a flat one at

@@ -132,7 +132,7 @@ impl PlaceSums {
 /// As [`PlaceSums::places_of_pixels`] of eight pixels with [`TOGETHER`] samples each.
 #[inline(always)]
 fn places_of_eight<S: Simd>(simd: S, pixels: &[[Position; TOGETHER]]) -> u32x8<S> {
-    // Columns and rows of every other sample, as numbers of 16 bits that are added up in pairs.
+    // The first eight samples plus the last eight, one by one: a column in the lower half of each lane, a row in the upper.
     let halves = |i: usize| -> u32x8<S> {
         let (first, second) = u8x32::from_slice(simd, pixels[i].as_flattened()).widen();
         (first + second).bitcast()

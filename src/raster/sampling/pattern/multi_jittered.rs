@@ -75,8 +75,8 @@ const SIDE_OF_SIXTEEN: u32 = 4;
 /// Each of the 16 columns of such a pixel is `1 << 4` points wide.
 const WIDTH_BITS: u32 = 4;
 
-/// All that can become of four numbers, in points: their hash looks at seven bits of a seed only, of which [`order_of_four`] makes a
-/// number.
+/// Every order that [`permuted`] gives to the numbers 0 to 3, times the width of a column: of a seed it looks at seven bits only,
+/// which [`order_of_four`] puts side by side.
 static ORDERS_OF_FOUR: [[u32; 4]; 128] = {
     let mut orders = [[0; 4]; 128];
     let mut order = 0;
@@ -93,7 +93,7 @@ static ORDERS_OF_FOUR: [[u32; 4]; 128] = {
     orders
 };
 
-/// What a seed makes of four numbers.
+/// The order that a seed gives to four numbers: see [`ORDERS_OF_FOUR`].
 #[inline(always)]
 fn order_of_four(seed: u32) -> &'static [u32; 4] {
     let mixed = (seed ^ seed >> 8 ^ seed >> 16) & 3;

@@ -132,11 +132,13 @@ impl Kinds {
         }
         let rate_one = context.rate == SampleRate::ONE;
         if !filter.is_plain() {
-            // What neighbours weigh, too, takes the colour of every sample; of what is flat surfaces tell it at last.
-            return if all_flat() && has_room(context) {
+            // What neighbours weigh, too, takes the colour of every sample; surfaces tell which of these are seen.
+            return if !has_room(context) {
+                Method::PerSample
+            } else if all_flat() {
                 Method::Visibility(Rounding::Sums)
             } else {
-                Method::PerSample
+                by_samples()
             };
         }
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {

@@ -51,6 +51,15 @@ impl AxisWeights {
         self.margin
     }
 
+    /// What the weights of all samples add up to without their signs, in parts of what they do with these; `None` where that is too
+    /// little to mean anything.
+    pub(crate) fn unsigned(&self) -> Option<f64> {
+        let sum: i64 = self.weights.iter().map(|weight| i64::from(*weight)).sum();
+        let unsigned: i64 = self.weights.iter().map(|weight| i64::from(weight.abs())).sum();
+        let parts = (unsigned as f64 / sum as f64).powi(2);
+        (sum > 0 && parts < 8.0).then_some(parts)
+    }
+
     /// What the columns of the pixel weigh that lies so many beside the middle one.
     #[inline]
     pub(crate) fn of_pixel(&self, beside: i32) -> &[i32] {

@@ -54,12 +54,17 @@ pub(crate) struct PlacedPixels<'p> {
     pub(crate) tints: &'p [Premultiplied16],
 }
 
-/// All samples of some pixels, of whose places no more is known than where their means are.
+/// All samples of some pixels, of whose places no more is known than where their means are; or also those of pixels around them, with
+/// weights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoundedPixels<'p> {
     pub(crate) pixels: Pixels<'p>,
-    /// Between what the mean column of the samples of each pixel lies, and the mean row.
+    /// Between what the mean column of the samples of each pixel lies, and the mean row; of weighted samples that of their weights.
     pub(crate) mean_range: [f64; 2],
+    /// So many pixels on each side have samples that count, too.
+    pub(crate) margin: u32,
+    /// What the weights of all samples add up to without their signs, in parts of what they do with these.
+    pub(crate) unsigned: f64,
     /// Flat colours that are painted over them, in that order.
     pub(crate) tints: &'p [Premultiplied16],
 }
@@ -170,6 +175,19 @@ impl PlacedParts<'_> {
             pixels: self.pixels.part(range.clone()),
             sums: &self.sums[range],
             ..self
+        }
+    }
+}
+
+impl<'p> BoundedPixels<'p> {
+    /// Of pixels whose own samples alone count, all alike.
+    pub(crate) fn new(pixels: Pixels<'p>, mean_range: [f64; 2], tints: &'p [Premultiplied16]) -> Self {
+        Self {
+            pixels,
+            mean_range,
+            margin: 0,
+            unsigned: 1.0,
+            tints,
         }
     }
 }

@@ -42,7 +42,7 @@ struct Piece {
 impl LineColors<'_> {
     /// All of the pixels.
     pub(super) fn means(self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) {
-        self.each_piece(pixels.pixels, |range, planes| {
+        self.each_piece(pixels.pixels, 0, |range, planes| {
             let colors = PlaneColors {
                 planes: planes.unwrap_or(&NOWHERE),
                 shade: self.shade,
@@ -60,7 +60,7 @@ impl LineColors<'_> {
         open: &mut Vec<usize>,
     ) -> bool {
         let mut of_part = Vec::new();
-        self.each_piece(pixels.pixels, |range, planes| {
+        self.each_piece(pixels.pixels, pixels.margin, |range, planes| {
             of_part.clear();
             let part = BoundedPixels {
                 pixels: pixels.pixels.part(range.clone()),
@@ -82,19 +82,19 @@ impl LineColors<'_> {
     /// As [`PlaneColors::part_bounds`], of all stretches.
     pub(super) fn part_bounds(self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) {
         let shade = self.shade;
-        self.each_piece(parts.pixels, |range, planes| {
+        self.each_piece(parts.pixels, 0, |range, planes| {
             let planes = planes.unwrap_or(&NOWHERE);
             PlaneColors { planes, shade }.part_bounds(parts.part(range.clone()), mean, &mut bounds[range]);
         });
     }
 
-    /// Calls `done` with pixels that follow each other in the list and all of whose samples lie on one piece, and with its planes;
-    /// with none where a pixel lies on several.
-    fn each_piece(self, pixels: Pixels<'_>, mut done: impl FnMut(Range<usize>, Option<&Planes<3>>)) {
+    /// Calls `done` with pixels that follow each other in the list and all of whose samples lie on one piece, and those of as many
+    /// pixels around as `margin` says, and with its planes; with none where a pixel lies on several.
+    fn each_piece(self, pixels: Pixels<'_>, margin: u32, mut done: impl FnMut(Range<usize>, Option<&Planes<3>>)) {
         let SampleGrid { side, .. } = pixels.grid;
         let [right, down, start] = self.place;
         let (first, middle) = (first_sample(pixels.grid), f64::from(side - 1) / 2.0);
-        let reach = (right.abs() + down.abs()) * middle;
+        let reach = (right.abs() + down.abs()) * (middle + f64::from(margin * side));
         let (mut current, mut from): (Option<Piece>, usize) = (None, 0);
         for (i, place) in pixels.places.iter().enumerate() {
             let at = |axis: usize| first[axis] + f64::from(u32::from(place[axis]) * side) + middle;
@@ -277,11 +277,7 @@ mod tests {
                 let mut found = vec![0; places.len()];
                 colors.means(placed, &mean, &mut found);
                 assert_eq!(found, expected, "{pattern:?}, {rate:?}, {space:?}: {gradient:?}");
-                let bounded = BoundedPixels {
-                    pixels,
-                    mean_range: positions.mean_range(),
-                    tints: &[],
-                };
+                let bounded = BoundedPixels::new(pixels, positions.mean_range(), &[]);
                 let (mut found, mut open) = (vec![0; places.len()], Vec::new());
                 if same || !colors.bounded(bounded, &mean, &mut found, &mut open) {
                     continue;

@@ -68,11 +68,14 @@ impl PlaneColors<'_> {
     ) -> bool {
         let [least, most] = pixels.mean_range;
         let (middle, half) = (f64::midpoint(least, most), (most - least) / 2.0);
-        let Some(shown) = TintedPlanes::new(self.planes, pixels.tints).moved_by(half) else {
+        let shown = TintedPlanes::new(self.planes, pixels.tints).weighted(pixels.unsigned);
+        let Some(shown) = shown.moved_by(half) else {
             return false;
         };
         let is_linear = matches!(mean, SampleMean::Linear(_));
-        dispatch!(simd::level(), simd => bounded_with(simd, (&shown, middle), pixels.pixels, is_linear, (values, open)));
+        let limits = shown.spread_limits(f64::from(pixels.pixels.grid.side * (2 * pixels.margin + 1)));
+        let shown = (&shown, &limits, middle);
+        dispatch!(simd::level(), simd => bounded_with(simd, shown, pixels.pixels, is_linear, (values, open)));
         true
     }
 }
@@ -143,13 +146,12 @@ fn means_with<S: Simd>(
 #[inline(always)]
 fn bounded_with<S: Simd>(
     simd: S,
-    (shown, middle): (&TintedPlanes, f64),
+    (shown, limits, middle): (&TintedPlanes, &[SpreadLimits; 3], f64),
     Pixels { grid, places }: Pixels<'_>,
     is_linear: bool,
     (values, open): (&mut [u32], &mut Vec<usize>),
 ) {
     let (first, side) = (first_sample(grid), f64::from(grid.side));
-    let limits = shown.spread_limits(side);
     let from_pivot = [0, 1].map(|axis| first[axis] + middle - shown.planes.pivot[axis]);
     let blocks = values.chunks_mut(LANES).zip(places.chunks(LANES));
     for (block, (values, places)) in blocks.enumerate() {
@@ -157,7 +159,7 @@ fn bounded_with<S: Simd>(
         let middle = [columns * side + from_pivot[0], rows * side + from_pivot[1]];
         let (pixels, certain) = shown.pixels(
             middle,
-            &limits,
+            limits,
             #[inline(always)]
             |values, _| {
                 if is_linear {
@@ -221,6 +223,15 @@ impl TintedPlanes {
         Self { planes, limits }
     }
 
+    /// The same where samples have weights that add up to so much without their signs: each moves the sum by what rounding moved it,
+    /// times its weight.
+    fn weighted(mut self, unsigned: f64) -> Self {
+        for limits in &mut self.limits {
+            limits.rounded *= unsigned;
+        }
+        self
+    }
+
     /// The same where nobody knows how far samples have moved together, up to `points` of the lattice on each axis; `None` where few
     /// pixels would be certain.
     fn moved_by(mut self, points: f64) -> Option<Self> {
@@ -255,7 +266,7 @@ impl TintedPlanes {
         (pixels, certain)
     }
 
-    /// What is known of the channels of a pixel of a lattice with so many points along a side.
+    /// What is known of the channels of a square of a lattice with so many points along a side.
     pub(super) fn spread_limits(&self, side: f64) -> [SpreadLimits; 3] {
         let Self { planes, limits } = self;
         [0, 1, 2].map(|k| limits[k].within((planes.dx[k].abs() + planes.dy[k].abs()) * (side - 1.0)))
@@ -557,11 +568,7 @@ mod tests {
                 return Ok(());
             };
             let positions = SamplePositions::new(case.pattern, case.rate, Seed::default());
-            let bounded = BoundedPixels {
-                pixels: case.placed().pixels,
-                mean_range: positions.mean_range(),
-                tints: &case.tints,
-            };
+            let bounded = BoundedPixels::new(case.placed().pixels, positions.mean_range(), &case.tints);
             let shade = OfPlanes(&case.planes);
             for space in ResolveSpace::ALL {
                 let mean = SampleMean::new(space, case.rate.samples(), Rules::Standard);

@@ -15,6 +15,7 @@ use std::ops::Range;
 use crate::color::{Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
 use crate::raster::sampling::mask::SampleMask;
+use crate::raster::shading::context::PixelRun;
 use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
 
@@ -119,6 +120,28 @@ impl SampleColors {
             &mut self.split[pixels],
             &mut self.samples[samples],
         )
+    }
+
+    /// Lets all samples of a run of pixels be replaced, whose columns and row are counted from the tile's first pixel: opaque colours, a
+    /// pixel's side by side.
+    pub(in crate::raster) fn put_samples(&mut self, run: PixelRun, put: impl FnOnce(&mut [Premultiplied16])) {
+        let row = usize::from(run.row) * self.width;
+        let pixels = row + usize::from(run.start)..row + usize::from(run.end);
+        if self.per_pixel == 1 {
+            put(&mut self.whole[pixels]);
+            return;
+        }
+        put(self.split_pixels(pixels.clone(), true));
+        if self.space == ResolveSpace::Stored {
+            self.join(pixels);
+        }
+    }
+
+    /// The samples of a pixel that is split, by its column and row from the tile's first pixel.
+    pub(in crate::raster) fn split_samples(&mut self, [x, y]: [u16; 2]) -> &mut [Premultiplied16] {
+        let pixel = usize::from(y) * self.width + usize::from(x);
+        debug_assert!(self.split[pixel], "each sample has its colour");
+        &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
     }
 
     /// Index of the pixel in column `x` of row `y` of the frame, which must lie in the tile.

@@ -48,17 +48,17 @@ pub(super) struct TileSamples<'s> {
 /// The samples of some fragments of a primitive.
 #[derive(Debug, Default)]
 pub(super) struct SampleShades {
-    points: Vec<[u16; 2]>,
-    colors: Vec<Premultiplied16>,
+    pub(super) points: Vec<[u16; 2]>,
+    pub(super) colors: Vec<Premultiplied16>,
     /// Those of a paint above.
-    above: Vec<Premultiplied16>,
+    pub(super) above: Vec<Premultiplied16>,
     /// Pixels of which all samples are shaded, and what becomes of them.
     pub(super) whole: Vec<[u16; 2]>,
-    pixels: Vec<u32>,
+    pub(super) pixels: Vec<u32>,
     /// The numbers of those that depend on where exactly their samples lie.
-    open: Vec<usize>,
+    pub(super) open: Vec<usize>,
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
-    inside: Vec<Position>,
+    pub(super) inside: Vec<Position>,
     random: Vec<u64>,
     /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
     by_mask: PlaceSumsByMask,
@@ -97,7 +97,7 @@ impl BySamples {
 
 impl SampleShades {
     /// Finds the samples of fragments, each of one of the pixels of `whole`; `grid` counts the tile's.
-    fn gather(&mut self, fragments: &[Fragment], positions: &SamplePositions, grid: SampleGrid) {
+    pub(super) fn gather(&mut self, fragments: &[Fragment], positions: &SamplePositions, grid: SampleGrid) {
         self.place(positions, grid);
         let count = fragments.iter().map(|part| part.mask.count_ones() as usize).sum();
         self.points.clear();
@@ -194,7 +194,7 @@ impl SampleShades {
     }
 
     /// Finds where the samples of the pixels of `whole` lie.
-    fn place(&mut self, positions: &SamplePositions, grid: SampleGrid) {
+    pub(super) fn place(&mut self, positions: &SamplePositions, grid: SampleGrid) {
         if !positions.are_same() {
             let pixels = self.whole.iter().map(|place| pixel_of(*place, grid));
             self.inside.clear();
@@ -203,7 +203,7 @@ impl SampleShades {
     }
 
     /// Shades the samples.
-    fn shade(&mut self, shader: &SurfaceShader<'_>, grid: SampleGrid) {
+    pub(super) fn shade(&mut self, shader: &SurfaceShader<'_>, grid: SampleGrid) {
         let count = self.points.len();
         if self.colors.len() < count {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
@@ -256,14 +256,11 @@ impl SampleShades {
         };
         let TileSamples { positions, mean, grid } = samples;
         self.open.clear();
-        let bounded = BoundedPixels {
-            pixels: Pixels {
-                grid,
-                places: &self.whole,
-            },
-            mean_range: positions.mean_range(),
-            tints,
+        let pixels = Pixels {
+            grid,
+            places: &self.whole,
         };
+        let bounded = BoundedPixels::new(pixels, positions.mean_range(), tints);
         if !lowest.bounded_pixels(bounded, mean, &mut self.pixels, &mut self.open) {
             return false;
         }
@@ -340,7 +337,7 @@ fn point_at([left, top]: [u16; 2], [column, row]: Position) -> [u16; 2] {
 
 /// The samples of all pixels, one pixel after the other.
 #[inline(always)]
-fn points_of<S: Simd>(_: S, placed: PlacedPixels<'_>, points: &mut [[u16; 2]]) {
+pub(super) fn points_of<S: Simd>(_: S, placed: PlacedPixels<'_>, points: &mut [[u16; 2]]) {
     let points = points.chunks_exact_mut(placed.count);
     for (i, (place, points)) in placed.pixels.places.iter().zip(points).enumerate() {
         let corner = first_point(*place, placed.pixels.grid);

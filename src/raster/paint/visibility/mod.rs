@@ -3,7 +3,8 @@
 //! The [`buffer`] holds surface ids, [`packed`] four to a word; [`two_surfaces`] compresses a pixel of two surfaces as
 //! GPUs do with an FMASK; [`paint_stack`] keeps what is painted over shaded primitives where each sample is rounded for itself, since
 //! no sum tells that; [`flat_resolve`] averages surfaces of one colour without shading.
-//! [`sample_colors`] tells the colour of each sample instead, for resolve filters that reach beyond a pixel.
+//! [`sample_colors`] tells the colour of each sample instead, for resolve filters that reach beyond a pixel; [`wide_shades`] that of
+//! samples which are shaded.
 
 mod bounded_parts;
 pub(in crate::raster) mod buffer;
@@ -23,3 +24,4 @@ pub(in crate::raster) mod surface_color;
 mod surface_shader;
 pub(in crate::raster) mod surfaces;
 pub(in crate::raster) mod two_surfaces;
+mod wide_shades;

@@ -1,7 +1,7 @@
-//! What the samples of a tile show, one by one, where all of it is flat: for pixels that weigh samples of their neighbours, too.
+//! What the samples of a tile show, one by one: for pixels that weigh samples of their neighbours, too.
 //!
-//! Most pixels lie in the middle of others that show the same surface, and need no samples: these are found, and put, by their
-//! surfaces, and colours are looked up only around the rest.
+//! Most pixels lie in the middle of others that show the same surface. Where that is flat they need no samples: they are found, and put,
+//! by their surfaces, and colours are looked up only around the rest. Of what is to be shaded see `wide_shades`.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32};
@@ -23,11 +23,18 @@ use crate::simd;
 const AT_ONCE: usize = 32;
 
 impl VisibilityPainter<'_> {
-    /// Resolves the finished tile, in which nothing is to be shaded: `colors` is one of the same rectangle, with a margin around the
-    /// pixels of `block`.
-    pub(crate) fn resolve_wide(&self, colors: &mut SampleColors, wide: &mut WideResolve, block: &mut PixelBlock<'_>) {
+    /// Resolves the finished tile: `colors` is one of the same rectangle, with a margin around the pixels of `block`.
+    pub(crate) fn resolve_wide(
+        &mut self,
+        colors: &mut SampleColors,
+        wide: &mut WideResolve,
+        block: &mut PixelBlock<'_>,
+    ) {
         let margin = wide.margin();
         dispatch!(simd::level(), simd => resolve_flat(simd, self, (wide.flat(), margin), block));
+        if self.surfaces.any_shaded {
+            return self.resolve_wide_shaded(colors, wide, block);
+        }
         // A pixel alone may be asked for all samples around it, flat or not.
         let is_alone = block.rect.x.length() * block.rect.y.length() == 1;
         if is_alone {
@@ -39,15 +46,14 @@ impl VisibilityPainter<'_> {
         wide.resolve_mixed(colors, block);
     }
 
-    /// Puts the colours of samples of the finished tile, in which nothing is to be shaded, into one of the same rectangle: of those
-    /// pixels of each row that are needed.
+    /// Puts the colours of samples of the finished tile into one of the same rectangle: of those pixels of each row that are needed.
+    /// What is to be shaded gets some colour until it is.
     pub(super) fn put_colors(&self, colors: &mut SampleColors, needed: impl Fn(usize) -> PixelBits) {
-        debug_assert!(!self.surfaces.any_shaded, "nothing is to be shaded");
         dispatch!(simd::level(), simd => put_colors(simd, self, colors, &needed));
     }
 }
 
-/// Finds the pixels in the middle of others that show the same surface, and puts them.
+/// Finds the pixels in the middle of others that show the same surface, and puts those whose surface is flat.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn resolve_flat<S: Simd>(
@@ -64,6 +70,7 @@ fn resolve_flat<S: Simd>(
             let rows = tile.rect.y.start..tile.rect.y.end;
             for ((row, painted), y) in rows.skip(margin).enumerate().zip(block.rect.y.start..block.rect.y.end) {
                 let (shown, line) = (&tile.row(painted)[margin..], block.line(y));
+                // What is to be shaded gets some colour until it is.
                 for run in flat.mixed(row).others(flat.width()).runs() {
                     put_flat(surfaces, &shown[run.clone()], &mut line[run], margin);
                 }

@@ -74,6 +74,11 @@ impl PixelBits {
         self.0 == 0
     }
 
+    /// How many there are.
+    pub(in crate::raster::paint) fn count(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
     pub(in crate::raster::paint) fn contains(self, x: usize) -> bool {
         x < 64 && self.0 >> x & 1 == 1
     }
@@ -177,6 +182,20 @@ impl FlatPixels {
                 .fold(self.across[y], |flat, down| flat & down);
             PixelBits(low(flat)).others(self.width)
         }));
+    }
+
+    /// Notes that the pixel in column `x` and row `y` of the tile is not flat.
+    pub(in crate::raster::paint) fn mix(&mut self, [x, y]: [usize; 2]) {
+        self.mixed[y].0 |= 1 << x;
+    }
+
+    /// Notes again which pixels are split, once samples were put.
+    pub(in crate::raster::paint) fn note_split(&mut self, colors: &SampleColors) {
+        let level = simd::level();
+        for (y, found) in self.whole.iter_mut().enumerate() {
+            let (_, is_split) = colors.row(y);
+            *found = dispatch!(level, simd => whole(simd, is_split));
+        }
     }
 
     /// Whether all pixels are flat.

@@ -107,6 +107,15 @@ impl WideResolve {
         self.samples.weights.margin().cast_unsigned() as usize
     }
 
+    /// What weights add up to without their signs, in parts of what they do with these, where they are the same around every pixel,
+    /// on both of its sides, and weigh stored values.
+    pub(in crate::raster::paint) fn unsigned(&self) -> Option<f64> {
+        match &self.sums {
+            Sums::Dots(_) | Sums::Stored(_) => self.samples.weights.unsigned(),
+            Sums::Light(_) | Sums::Free(_) => None,
+        }
+    }
+
     /// Which pixels of the tile are flat, for those who find them in another way.
     pub(in crate::raster::paint) fn flat(&mut self) -> &mut FlatPixels {
         &mut self.flat

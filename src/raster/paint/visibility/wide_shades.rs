@@ -300,6 +300,7 @@ fn alike(shown: &[SurfaceId], run: Range<usize>) -> impl Iterator<Item = Range<u
 mod tests {
     use std::sync::atomic::AtomicBool;
 
+    use arbtest::arbitrary::{self, Result, Unstructured};
     use glam::DVec2;
 
     use super::*;
@@ -316,6 +317,32 @@ mod tests {
 
     const SIZE: [u32; 2] = [70, 50];
 
+    fn any_settings(u: &mut Unstructured<'_>) -> Result<RasterSettings> {
+        Ok(RasterSettings {
+            rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64])?).expect("a square number"),
+            pattern: if u.arbitrary()? {
+                SamplePattern::Grid
+            } else {
+                *u.choose(&SamplePattern::ALL)?
+            },
+            seed: Seed::default(),
+            shading: if u.ratio(1, 4)? {
+                ShadingRate::Centre
+            } else {
+                ShadingRate::Sample
+            },
+            coverage: crate::raster::PixelCoverage::default(),
+            sampling: SamplingSettings {
+                rules: *u.choose(&Rules::ALL)?,
+                ..SamplingSettings::default()
+            },
+            filter: any_filter(u)?,
+            space: *u.choose(&ResolveSpace::ALL)?,
+            background: Rgba::WHITE,
+            palette: None,
+        })
+    }
+
     #[test]
     fn tiles_are_those_of_samples_that_are_painted_one_by_one() {
         let texture = noise();
@@ -324,29 +351,7 @@ mod tests {
             2000,
             || tried.get() > 200,
             |u| {
-                let settings = RasterSettings {
-                    rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64])?).expect("a square number"),
-                    pattern: if u.arbitrary()? {
-                        SamplePattern::Grid
-                    } else {
-                        *u.choose(&SamplePattern::ALL)?
-                    },
-                    seed: Seed::default(),
-                    shading: if u.ratio(1, 4)? {
-                        ShadingRate::Centre
-                    } else {
-                        ShadingRate::Sample
-                    },
-                    coverage: crate::raster::PixelCoverage::default(),
-                    sampling: SamplingSettings {
-                        rules: *u.choose(&Rules::ALL)?,
-                        ..SamplingSettings::default()
-                    },
-                    filter: any_filter(u)?,
-                    space: *u.choose(&ResolveSpace::ALL)?,
-                    background: Rgba::WHITE,
-                    palette: None,
-                };
+                let settings = any_settings(u)?;
                 if settings.filter.is_plain() {
                     return Ok(());
                 }
@@ -355,7 +360,7 @@ mod tests {
                 // Below the others something whose colours lie in planes nearly everywhere.
                 let mut color = || {
                     let [r, g, b] = u.arbitrary()?;
-                    Ok::<_, arbtest::arbitrary::Error>(Rgba::from_bytes([r, g, b, 255]))
+                    Ok::<_, arbitrary::Error>(Rgba::from_bytes([r, g, b, 255]))
                 };
                 let corners = [(-20.0, -20.0), (200.0, -20.0), (-20.0, 200.0)].map(|(x, y)| DVec2::new(x, y));
                 builder.triangle(corners, &Paint::vertex([color()?, color()?, color()?]));

@@ -1,7 +1,7 @@
 //! Diagonal lines of edges: stairs of one pixel each, which lie at 45 degrees and which lines along rows and columns would
 //! smooth into waves.
 
-use super::edges::{Edges, LEFT, TOP};
+use super::edges::{Edges, FALL, LEFT, RISE, TOP};
 
 /// Pixels that a diagonal is followed in each direction.
 pub(super) const LONGEST: u8 = 8;
@@ -28,17 +28,11 @@ struct Reached {
     steps: u8,
     /// Whether that is its end.
     ended: bool,
-    /// Whether the pixel there has a top edge.
-    top: bool,
 }
 
 impl Reached {
     /// Where the pixel itself has one of the two edges only.
-    const NOWHERE: Self = Self {
-        steps: 0,
-        ended: true,
-        top: false,
-    };
+    const NOWHERE: Self = Self { steps: 0, ended: true };
 
     /// What crosses the diagonal there; unknown where its end was not found.
     fn crossed(&self, [horizontal, vertical]: [bool; 2]) -> u8 {
@@ -46,19 +40,15 @@ impl Reached {
     }
 }
 
-/// Follows a diagonal by `step` as long as `stair`, the two edges of each pixel, says that it goes on.
+/// Follows a diagonal by `step` as long as pixels have steps of its kind.
 #[inline]
-fn follow([x, y]: [i32; 2], step: [i32; 2], stair: impl Fn([i32; 2]) -> [bool; 2]) -> Reached {
+fn follow(edges: &Edges, kind: usize, [x, y]: [i32; 2], step: [i32; 2]) -> Reached {
     let mut steps = 0;
     loop {
         let ahead = i32::from(steps) + 1;
-        let [side, top] = stair([x + ahead * step[0], y + ahead * step[1]]);
-        if !(side && top) || steps == LONGEST - 1 {
-            return Reached {
-                steps,
-                ended: !(side && top),
-                top,
-            };
+        let goes_on = edges.has_step([x + ahead * step[0], y + ahead * step[1]], kind);
+        if !goes_on || steps == LONGEST - 1 {
+            return Reached { steps, ended: !goes_on };
         }
         steps += 1;
     }
@@ -67,22 +57,22 @@ fn follow([x, y]: [i32; 2], step: [i32; 2], stair: impl Fn([i32; 2]) -> [bool; 2
 /// Which of the 64 pixels of a word in row `y` diagonals may go through that rise, and which that fall: no others have three
 /// steps.
 pub(super) fn candidates(edges: &Edges, word: usize, y: i32) -> [u64; 2] {
-    // The edges of the pixels that lie so far to the right and below: those of a row begin in column `x`.
-    let moved = |x: i32, y: i32, side: usize| {
-        let words = |word: usize| edges.rows.word(word, y)[side];
+    let [left, top] = edges.rows.word(word, y);
+    if top == 0 {
+        return [0; 2];
+    }
+    // Of the pixels that lie so far to the right, in a row.
+    let moved = |x: i32, y: i32, kind: usize| {
+        let words = |word: usize| edges.stairs.word(word, y)[kind];
         match x.unsigned_abs() {
             0 => words(word),
             by if x > 0 => words(word) >> by | words(word + 1) << (64 - by),
             by => words(word) << by | words(word - 1) >> (64 - by),
         }
     };
-    let rises = |step: i32| moved(step, y - step, LEFT) & moved(step, y - step, TOP);
-    let falls = |step: i32| moved(step + 1, y + step, LEFT) & moved(step, y + step, TOP);
-    let top = moved(0, y, TOP);
-    if top == 0 {
-        return [0; 2];
-    }
-    let (left, right) = (moved(0, y, LEFT), moved(1, y, LEFT));
+    let rises = |step: i32| moved(step, y - step, RISE);
+    let falls = |step: i32| moved(step, y + step, FALL);
+    let right = left >> 1 | edges.rows.word(word + 1, y)[LEFT] << 63;
     let rising = may_go(left, [rises(1), rises(2), rises(3)], [rises(-1), rises(-2)]);
     let falling = may_go(right, [falls(-1), falls(-2), falls(-3)], [falls(1), falls(2)]);
     [top & rising, top & falling]
@@ -105,14 +95,17 @@ impl Diagonal {
 
     fn rising(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
         let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
-        let stair = |[x, y]: [i32; 2]| [has(x, y, LEFT), has(x, y, TOP)];
+        let mut lengths = [0; 2];
         let left = if has(x, y, LEFT) {
-            follow([x, y], [-1, 1], stair)
+            let left = follow(edges, RISE, [x, y], [-1, 1]);
+            let ahead = i32::from(left.steps) + 1;
+            lengths[0] = left.steps + u8::from(!left.ended || has(x - ahead, y + ahead, TOP));
+            left
         } else {
             Reached::NOWHERE
         };
-        let right = follow([x, y], [1, -1], stair);
-        let lengths = [left.steps + u8::from(left.top), right.steps];
+        let right = follow(edges, RISE, [x, y], [1, -1]);
+        lengths[1] = right.steps;
         let [before, after] = lengths.map(i32::from);
         (lengths[0] + lengths[1] >= FEWEST).then(|| Self {
             rises: true,
@@ -129,14 +122,16 @@ impl Diagonal {
 
     fn falling(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
         let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
-        let stair = |[x, y]: [i32; 2]| [has(x + 1, y, LEFT), has(x, y, TOP)];
-        let left = follow([x, y], [-1, -1], stair);
+        let left = follow(edges, FALL, [x, y], [-1, -1]);
+        let mut lengths = [left.steps, 0];
         let right = if has(x + 1, y, LEFT) {
-            follow([x, y], [1, 1], stair)
+            let right = follow(edges, FALL, [x, y], [1, 1]);
+            let ahead = i32::from(right.steps) + 1;
+            lengths[1] = right.steps + u8::from(!right.ended || has(x + ahead, y + ahead, TOP));
+            right
         } else {
             Reached::NOWHERE
         };
-        let lengths = [left.steps, right.steps + u8::from(right.top)];
         let [before, after] = lengths.map(i32::from);
         (lengths[0] + lengths[1] >= FEWEST).then(|| Self {
             rises: false,

@@ -18,6 +18,11 @@ pub(super) const LEFT: usize = 0;
 /// The edge between a pixel and the one above it.
 pub(super) const TOP: usize = 1;
 
+/// A step of a diagonal that rises, among the stairs of a pixel: it has a left and a top edge.
+pub(super) const RISE: usize = 0;
+/// A step of one that falls: it has a top and a right edge.
+pub(super) const FALL: usize = 1;
+
 /// The least difference of luma that is an edge, `0.0..=1.0`.
 pub const THRESHOLD: f64 = 0.1;
 /// An edge is dropped where luma differs by more than this many times as much beside it: the eye sees that one only.
@@ -185,6 +190,8 @@ pub(super) struct Edges {
     pub(super) size: [usize; 2],
     pub(super) rows: Bits,
     pub(super) columns: Bits,
+    /// Of rows where diagonals may have steps.
+    pub(super) stairs: Bits,
 }
 
 impl Edges {
@@ -192,12 +199,15 @@ impl Edges {
     pub(super) fn new(pixels: &[u32], size: [usize; 2]) -> Self {
         let [width, height] = size;
         let mut rows = Bits::rows(width, height);
+        let mut stairs = Bits::rows(width, height);
         let mut columns = Bits::columns(height, width);
         let (row_words, stride) = rows.rows_mut();
+        let (stair_words, _) = stairs.rows_mut();
         let (column_words, column_stride) = columns.columns_mut();
         let bands = row_words[..height * stride].par_chunks_mut(BAND * stride);
+        let bands = bands.zip(stair_words.par_chunks_mut(BAND * stride));
         let bands = bands.zip(column_words.par_chunks_mut(column_stride)).enumerate();
-        bands.for_each(|(band, (words, columns))| {
+        bands.for_each(|(band, ((words, stairs), columns))| {
             let row = |y: usize| &pixels[y.min(height - 1) * width..][..width];
             for (y, words) in (band * BAND..).zip(words.chunks_exact_mut(stride)) {
                 let rows = [row(y.saturating_sub(2)), row(y.saturating_sub(1)), row(y), row(y + 1)];
@@ -205,12 +215,23 @@ impl Edges {
                     *word = found(rows, start);
                 }
             }
+            for (words, stairs) in words.chunks_exact(stride).zip(stairs.chunks_exact_mut(stride)) {
+                for (both, stairs) in words.windows(2).zip(stairs) {
+                    let ([left, top], [next, _]) = (both[0], both[1]);
+                    *stairs = [left & top, (left >> 1 | next << 63) & top];
+                }
+            }
             let columns = &mut columns[Bits::BEFORE..][..width];
             for (word, columns) in (1..).zip(columns.chunks_mut(CHUNK)) {
                 turn(words, stride, word, columns);
             }
         });
-        Self { size, rows, columns }
+        Self {
+            size,
+            rows,
+            columns,
+            stairs,
+        }
     }
 
     /// Whether a side of a pixel is an edge, which lies in the frame or at most two pixels beside it.
@@ -218,6 +239,13 @@ impl Edges {
     pub(super) fn has(&self, [x, y]: [i32; 2], side: usize) -> bool {
         let (word, bit) = bits::place(x);
         self.rows.word(word, y)[side] >> bit & 1 != 0
+    }
+
+    /// Whether a pixel has a step of a diagonal, [`RISE`] or [`FALL`].
+    #[inline]
+    pub(super) fn has_step(&self, [x, y]: [i32; 2], kind: usize) -> bool {
+        let (word, bit) = bits::place(x);
+        self.stairs.word(word, y)[kind] >> bit & 1 != 0
     }
 }
 

@@ -22,32 +22,28 @@
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8, i16x8, i16x32, i32x4, i32x8, i32x16, u16x32, u32x4, u32x8, u32x16, u64x2};
+use fearless_simd::{Simd, dispatch, i16x8, i16x32, i32x4, i32x16, u16x32, u32x4, u32x8, u32x16, u64x2};
 
-use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
+use crate::color::Premultiplied16;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
+use crate::raster::paint::wide::dot_means::{MOVED, Mean, TOGETHER};
 use crate::raster::paint::wide::flat::FlatPixels;
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::rules::Rules;
 use crate::simd;
 
-/// By how much numbers are moved, so that they fit 16 bits with a sign.
-const MOVED: u16 = 1 << 15;
 const MOVED_WORD: u64 = 0x8000_8000_8000_8000;
 /// Rows and columns of samples that are summed up together.
 const BLOCK: usize = 4;
 /// The most of these along the side of a pixel: weights of more columns add up to too much.
 const MOST_BLOCKS: usize = 2;
-/// Pixels that are summed up together.
-const TOGETHER: usize = 4;
 /// Numbers that are multiplied at once.
 const AT_ONCE: usize = 32;
 
 /// Sums up weighted samples, reusing its memory.
 #[derive(Debug)]
 pub(super) struct DotSums {
-    rules: Rules,
     /// Samples along the side of a pixel, and the blocks that they are.
     side: usize,
     blocks: usize,
@@ -81,21 +77,6 @@ struct PaintedRow<'c> {
     split: u128,
 }
 
-/// What makes a pixel of a sum.
-#[derive(Clone, Copy, Debug)]
-struct Mean {
-    /// What all samples weigh together.
-    total: i64,
-    /// What was taken from the sum because numbers were moved.
-    moved: f64,
-    /// The sum of opaque samples' alpha.
-    one: f64,
-    /// What rounds, in parts of a sum: half a level or nothing, and half of what is between two sums.
-    rounding: f64,
-    /// Levels in a part of a sum.
-    levels: f64,
-}
-
 impl DotSums {
     /// `None` where sums may not fit.
     pub(super) fn new(weights: &AxisWeights, side: i32, rules: Rules) -> Option<Self> {
@@ -115,7 +96,6 @@ impl DotSums {
         let blocks = narrow.chunks(side).flat_map(|pixel| pixel.chunks(BLOCK));
         let blocks = blocks.map(|block| [0, 1, 2, 3].map(|at| block.get(at).copied().unwrap_or(0)));
         Some(Self {
-            rules,
             side,
             blocks: side.div_ceil(BLOCK),
             margin: margin.cast_unsigned() as usize,
@@ -125,7 +105,7 @@ impl DotSums {
                 .collect(),
             rows: blocks.map(|[a, b, c, d]| halves_weights([a, b, c, d])).collect(),
             of_pixels: weights_of_pairs(&of_pixels.map(|columns| columns.iter().sum()).collect::<Vec<_>>()),
-            mean: Mean::new(all.iter().map(|weight| i64::from(*weight)).sum(), rules),
+            mean: Mean::new([all.iter().map(|weight| i64::from(*weight)).sum(), most.into()], rules),
             whole: Vec::new(),
             pairs: Vec::new(),
             sums: Vec::new(),
@@ -136,7 +116,7 @@ impl DotSums {
 
     /// What all samples around a pixel weigh together; pixels can be resolved only where that is above zero.
     pub(super) fn total(&self) -> i64 {
-        self.mean.total
+        self.mean.total()
     }
 
     /// Resolves the pixels of a tile that are not flat.
@@ -324,76 +304,9 @@ impl DotSums {
                 }
                 at = if at + 1 == around { 0 } else { at + 1 };
             }
-            let [a, b, c, d] = sums;
-            let sums = [both_halves(simd, [a, b]), both_halves(simd, [c, d])];
             let end = pixels.end.min(start + TOGETHER);
-            self.mean.put(simd, sums, &mut line[start..end], self.rules);
+            self.mean.put(simd, sums, &mut line[start..end]);
         }
-    }
-}
-
-impl Mean {
-    /// Where columns, or rows, weigh so much together.
-    fn new(axis: i64, rules: Rules) -> Self {
-        let total = axis.pow(2);
-        let total_weight = total as f64;
-        let per_level = f64::from(Premultiplied16::PER_BYTE) * total_weight;
-        let half = match rules {
-            Rules::Standard | Rules::Float => per_level / 2.0,
-            Rules::Course => 0.0,
-        };
-        Self {
-            total,
-            // Of stored values, and of the lower halves of the sums of rows.
-            moved: f64::from(MOVED) * (total_weight + axis as f64),
-            one: f64::from(Premultiplied16::ONE) * total_weight,
-            // Sums are whole, and levels far apart: a level's least sum is found in it whatever the division rounds.
-            rounding: half + 0.5,
-            levels: per_level.recip(),
-        }
-    }
-
-    /// The first pixels of these, for the sums of their numbers, which were moved.
-    #[inline(always)]
-    fn put<S: Simd>(&self, simd: S, [first, second]: [f64x8<S>; 2], pixels: &mut [u32], rules: Rules) {
-        const NONE: f64 = f64::NEG_INFINITY;
-        let sums = [first + self.moved, second + self.moved];
-        let [first, second] = [self.in_places(simd, sums[0]), self.in_places(simd, sums[1])];
-        let [even, odd] = [both_words(first.zip_low(second)), both_words(first.zip_high(second))];
-        let found = [even[0], odd[0], even[1], odd[1]];
-        for (pixel, found) in pixels.iter_mut().zip(found) {
-            *pixel = 0xFF00_0000 | lowest(found);
-        }
-        let opaque = [NONE, NONE, NONE, self.one, NONE, NONE, NONE, self.one];
-        let opaque = f64x8::simd_from(simd, opaque);
-        if (sums[0].simd_lt(opaque) | sums[1].simd_lt(opaque)).any_true() {
-            let sums = [sums[0].to_array(), sums[1].to_array()];
-            for (pixel, sum) in pixels.iter_mut().zip(sums.as_flattened().as_chunks().0) {
-                if sum[3] < self.one {
-                    *pixel = self.translucent(*sum, rules);
-                }
-            }
-        }
-    }
-
-    /// The levels of two pixels, each in its place of a pixel's word; alpha has none.
-    #[inline(always)]
-    fn in_places<S: Simd>(&self, simd: S, sums: f64x8<S>) -> f64x8<S> {
-        let full = f64x8::splat(simd, self.one);
-        let places = f64x8::simd_from(simd, [65536.0, 256.0, 1.0, 0.0, 65536.0, 256.0, 1.0, 0.0]);
-        let levels = (sums.max(0.0).min(full) + self.rounding) * self.levels;
-        levels.floor() * places
-    }
-
-    /// The same of what is not opaque.
-    #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "whole numbers below 2^53")]
-    fn translucent(&self, sum: [f64; 4], rules: Rules) -> u32 {
-        let sum = WeightedSum {
-            channels: sum.map(|channel| channel as i64),
-            weight: self.total,
-        };
-        ResolveSpace::Stored.weighted_pixel(sum, rules)
     }
 }
 
@@ -489,44 +402,6 @@ fn beside<S: Simd>(simd: S, words: [u64; 2]) -> i16x8<S> {
     both.zip_low(both.slide::<4>(both))
 }
 
-/// The sums of two pixels, each by its sums of [`DotSums::halves`].
-#[inline(always)]
-fn both_halves<S: Simd>(simd: S, [first, second]: [i32x16<S>; 2]) -> f64x8<S> {
-    let ((low, high), (second_low, second_high)) = (first.split(), second.split());
-    let low = floats(simd, joined(low).combine(joined(second_low)));
-    let high = floats(simd, joined(high).combine(joined(second_high)));
-    high * f64::from(1 << 16) + low
-}
-
-/// The sums of two numbers' channels, which lie next to each other channel by channel, below 2^52.
-#[inline(always)]
-fn both_words<S: Simd>(channels: f64x8<S>) -> [u64; 2] {
-    // Whole numbers below it are the lowest bits of what they make with it.
-    const WHOLE: f64 = (1_u64 << 52) as f64;
-    let (left, right) = channels.split();
-    let (left, right) = (left + right).split();
-    (left + right + WHOLE).bitcast::<u64x2<S>>().to_array()
-}
-
-/// The sums of even and odd rows together.
-#[inline(always)]
-fn joined<S: Simd>(sums: i32x8<S>) -> i32x4<S> {
-    let (even, odd) = sums.split();
-    even + odd
-}
-
-/// Whole numbers as floats.
-#[inline(always)]
-fn floats<S: Simd>(simd: S, numbers: i32x8<S>) -> f64x8<S> {
-    // Numbers without a sign are the lowest bits of what they make with 2^52.
-    const WHOLE: f64 = (1_u64 << 52) as f64;
-    const SIGN: u32 = 1 << 31;
-    let high = u32x8::splat(simd, 0x4330_0000);
-    let numbers = numbers.bitcast::<u32x8<S>>() ^ u32x8::splat(simd, SIGN);
-    let words = numbers.zip_low(high).combine(numbers.zip_high(high));
-    words.bitcast::<f64x8<S>>() - (WHOLE + f64::from(SIGN))
-}
-
 /// A block of a pixel of `side x side` samples; beyond its last row and column what is nothing once it is moved.
 #[inline(always)]
 fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> [Premultiplied16; BLOCK * BLOCK] {
@@ -540,18 +415,12 @@ fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> 
     block
 }
 
-/// The lowest 24 bits.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
-fn lowest(word: u64) -> u32 {
-    word as u32 & 0x00FF_FFFF
-}
-
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
+    use crate::color::ResolveSpace;
     use crate::raster::SampleRate;
     use crate::raster::paint::sample_colors::ShadedColors;
     use crate::raster::paint::wide::separable::SeparableSums;
@@ -654,38 +523,6 @@ mod tests {
             }
             let many = DotSums::new(&weights(filter, 16), 16, Rules::Standard);
             assert!(many.is_none(), "{filter:?}: 16 columns weigh too much for 32 bits");
-        }
-    }
-
-    #[test]
-    fn levels_are_those_of_an_exact_division() {
-        let axis = 41_231_i64;
-        let total = axis.pow(2);
-        let per_level = i64::from(Premultiplied16::PER_BYTE) * total;
-        for rules in Rules::ALL {
-            let mean = Mean::new(axis, rules);
-            for level in 0..=255 {
-                // The sums on both sides of where a level starts.
-                for beside in [-1, 0, 1] {
-                    let half = if rules == Rules::Course { 0 } else { per_level / 2 };
-                    let sum = (level * per_level - half + beside).clamp(0, 255 * per_level);
-                    let exact = WeightedSum {
-                        channels: [sum, sum, sum, 255 * per_level],
-                        weight: total,
-                    };
-                    let moved = exact.channels.map(|channel| channel as f64 - mean.moved);
-                    let mut found = [0; 3];
-                    dispatch!(simd::level(), simd => {
-                        let two = f64x8::from_slice(simd, [moved, moved].as_flattened());
-                        mean.put(simd, [two, two], &mut found, rules);
-                    });
-                    assert_eq!(
-                        found,
-                        [ResolveSpace::Stored.weighted_pixel(exact, rules); 3],
-                        "level {level}, {beside} beside, {rules:?}"
-                    );
-                }
-            }
         }
     }
 }

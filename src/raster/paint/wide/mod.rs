@@ -8,13 +8,14 @@
 //! | pixels | by |
 //! |---|---|
 //! | in the middle of pixels that show one colour | nothing but that colour ([`flat`]) |
-//! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`]) |
+//! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`], [`dot_means`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |
 //!
 //! Where samples lie anywhere, weights below zero may happen to outweigh the others. A pixel whose weights add up to less than
 //! an eighth of what evenly spread samples would weigh is the mean of its own samples.
 
+mod dot_means;
 mod dot_sums;
 pub(in crate::raster::paint) mod flat;
 mod free;

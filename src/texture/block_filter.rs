@@ -50,6 +50,38 @@ struct Cells {
     weights: [[u64; BLOCK]; 4],
 }
 
+/// The latest large block that reaches beyond the level: beyond a border that the outermost texels go on from, most samples
+/// side by side read the same.
+struct Beyond<'p, S: Simd> {
+    plan: &'p Plan<'p>,
+    level: &'p MipLevel,
+    corner: [i32; 2],
+    rows: [u8x16<S>; 4],
+}
+
+impl<'p, S: Simd> Beyond<'p, S> {
+    #[inline(always)]
+    fn none(simd: S, (plan, level): (&'p Plan<'p>, &'p MipLevel)) -> Self {
+        Self {
+            plan,
+            level,
+            // No block starts so far outside of a level.
+            corner: [i32::MIN; 2],
+            rows: [u8x16::splat(simd, 0); 4],
+        }
+    }
+
+    /// The rows of the block with this corner.
+    #[inline(always)]
+    fn rows(&mut self, simd: S, corner: [i32; 2]) -> [u8x16<S>; 4] {
+        if self.corner != corner {
+            self.corner = corner;
+            self.rows = rows_beyond::<S, LARGE>(simd, self.level, self.plan.wrap, corner);
+        }
+        self.rows
+    }
+}
+
 /// Filters samples; see [`super::Filter::points`].
 #[inline(always)]
 pub(super) fn filter_with<S: Simd, C: FromColors>(
@@ -87,15 +119,25 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
             sample_filter::weigh(simd, spread, plan, &inside, out);
             continue;
         }
-        if let (LARGE, 1, [Some(one), None]) = (SIDE, count, &levels)
-            && cells.note_inside(simd, one, points)
-        {
+        if let (LARGE, 1, [Some(one), None]) = (SIDE, count, &levels) {
             let level = one.tap.level.level;
+            if cells.note_inside(simd, one, points) {
+                by_fours!(simd, out, |i| {
+                    let first = cells.inside::<S, LARGE>(simd, spread, level, i);
+                    let second = cells.inside::<S, LARGE>(simd, spread, level, i + 1);
+                    let third = cells.inside::<S, LARGE>(simd, spread, level, i + 2);
+                    let fourth = cells.inside::<S, LARGE>(simd, spread, level, i + 3);
+                    let low = clamped(simd, both_columns(first, second), 1);
+                    round(simd, low, clamped(simd, both_columns(third, fourth), 1))
+                });
+                continue;
+            }
+            let mut beyond = Beyond::none(simd, (plan, level));
             by_fours!(simd, out, |i| {
-                let first = cells.inside::<S, LARGE>(simd, spread, level, i);
-                let second = cells.inside::<S, LARGE>(simd, spread, level, i + 1);
-                let third = cells.inside::<S, LARGE>(simd, spread, level, i + 2);
-                let fourth = cells.inside::<S, LARGE>(simd, spread, level, i + 3);
+                let first = cells.anywhere(simd, spread, &mut beyond, i);
+                let second = cells.anywhere(simd, spread, &mut beyond, i + 1);
+                let third = cells.anywhere(simd, spread, &mut beyond, i + 2);
+                let fourth = cells.anywhere(simd, spread, &mut beyond, i + 3);
                 let low = clamped(simd, both_columns(first, second), 1);
                 round(simd, low, clamped(simd, both_columns(third, fourth), 1))
             });
@@ -297,6 +339,17 @@ impl Cells {
         let corner = [self.corners[0][i], self.corners[1][i]];
         let rows = rows_beyond::<S, SIDE>(simd, level, plan.wrap, corner);
         self.weighed::<S, SIDE>(simd, spread, rows, i)
+    }
+
+    /// The same of large blocks of one level.
+    #[inline(always)]
+    fn anywhere<S: Simd>(&self, simd: S, spread: Spread<S>, beyond: &mut Beyond<'_, S>, i: usize) -> i32x8<S> {
+        let i = i % BLOCK;
+        if self.offsets[i] != BEYOND {
+            return self.inside::<S, LARGE>(simd, spread, beyond.level, i);
+        }
+        let rows = beyond.rows(simd, [self.corners[0][i], self.corners[1][i]]);
+        self.weighed::<S, LARGE>(simd, spread, rows, i)
     }
 
     /// The same of a sample whose block lies inside the level.

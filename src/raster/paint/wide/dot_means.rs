@@ -185,13 +185,13 @@ impl Near {
         const ALPHA: u64 = 0x8888;
         /// Whole numbers below it are the lowest bits of what they make with it.
         const WHOLE: f32 = (1_u32 << 23) as f32;
-        /// The lowest bytes of blue, green, red and alpha, in this order.
+        /// The lowest bytes of blue, green and red, in this order.
         const CHANNELS: [u8; 64] = {
-            let mut at = [0x80; 64];
+            let mut at = [0; 64];
             let mut pixel = 0;
             while pixel < 4 {
                 (at[16 * pixel], at[16 * pixel + 1]) = (8, 4);
-                (at[16 * pixel + 2], at[16 * pixel + 3]) = (0, 12);
+                at[16 * pixel + 2] = 0;
                 pixel += 1;
             }
             at
@@ -216,7 +216,7 @@ impl Near {
             .swizzle_dyn_within_blocks(u8x64::simd_from(simd, CHANNELS));
         let words = words.bitcast::<i32x16<S>>().to_array();
         for (pixel, word) in pixels.iter_mut().zip(words.iter().step_by(4)) {
-            *pixel = word.cast_unsigned();
+            *pixel = 0xFF00_0000 | word.cast_unsigned();
         }
         true
     }
@@ -342,7 +342,10 @@ mod tests {
             let moved = i64::from(MOVED) * (axis.pow(2) + axis);
             let mut pixel = || -> arbtest::arbitrary::Result<[i64; 4]> {
                 // Weights below zero carry sums beyond what there can be.
-                let mut sum = || u.int_in_range(-20 * per_level..=275 * per_level);
+                let most = unsigned.pow(2) * i64::from(MOVED) / 100 * 99;
+                let mut sum = || {
+                    Ok::<_, arbtest::arbitrary::Error>(u.int_in_range(-most..=most)? + i64::from(MOVED) * axis.pow(2))
+                };
                 Ok([sum()?, sum()?, sum()?, 255 * per_level])
             };
             let sums = pixel()?;

@@ -8,8 +8,8 @@
 //!
 //! Where areas count instead of samples, [`per_sample`] paints everything, with [`by_area`].
 //!
-//! Where pixels take samples of their neighbours, [`wide`] resolves what [`per_sample`] has painted, or [`visibility`] where all of
-//! a tile is flat.
+//! Where pixels take samples of their neighbours, [`wide`] resolves what [`visibility`] has found, or what [`per_sample`] has painted
+//! in tiles with shaded layers or on a ground that shows through.
 //!
 //! [`per_sample`] is the simple one that the others are tested against; it also feeds the [`recorder`], from which pixels
 //! are explained.

@@ -1,7 +1,7 @@
 //! Tiles in which something is to be shaded, where pixels weigh samples of their neighbours, too.
 //!
-//! Colours that lie in planes need few samples: weights that are alike on both sides have their mean in the middle of a pixel, so that
-//! the sum is the colour there but for what rounding moves each sample.
+//! Where colours lie in a plane few samples are needed: the weights of a filter are symmetric, so that a weighted sum is the colour in
+//! the pixel's middle, but for the rounding of each sample.
 //!
 //! ```text
 //!      g g g g g        all samples around the pixel show one gradient on one stretch of its ramp, or one triangle:
@@ -9,7 +9,7 @@
 //!      g g g g g
 //! ```
 //!
-//! Of the rest, and of what lies around it, every sample that is seen is shaded, primitive by primitive.
+//! Around all other pixels every sample that is seen is shaded, primitive by primitive.
 
 use std::ops::Range;
 
@@ -29,13 +29,13 @@ use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedPix
 use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 use crate::simd;
 
-/// Where fewer than one of so many pixels do without the samples around them, all of a tile are shaded: those that show one colour are
-/// found then, as inside magnified texels.
+/// If less than one pixel in so many is known without its samples, all samples of the tile are shaded. Then pixels among others of
+/// the same colour are found as well, which helps inside magnified texels.
 const FEW: usize = 8;
 
 impl VisibilityPainter<'_> {
-    /// Resolves the finished tile, of which `wide` knows the pixels in the middle of others with the same surface, and those in `block`
-    /// are put where this is flat.
+    /// Resolves the finished tile. `wide` has found the pixels that lie in the middle of others with the same surface; where that is
+    /// flat, `block` has them already.
     pub(super) fn resolve_wide_shaded(
         &mut self,
         colors: &mut SampleColors,
@@ -62,11 +62,11 @@ impl VisibilityPainter<'_> {
         wide.resolve_mixed(colors, block);
     }
 
-    /// Puts pixels in the middle of others that show one surface whose colours lie in planes, and gives `wide` those that need to be
-    /// looked at sample by sample.
+    /// Puts the pixels in the middle of others with the same surface if its colours lie in a plane there, and tells `wide` which of them
+    /// need their samples after all.
     fn put_planes(&mut self, wide: &mut WideResolve, block: &mut PixelBlock<'_>) {
         let margin = wide.margin();
-        self.wait_for_even(wide, margin);
+        self.queue_even(wide, margin);
         let unsigned = wide.unsigned();
         let Self {
             context,
@@ -116,8 +116,8 @@ impl VisibilityPainter<'_> {
         }
     }
 
-    /// Lets those pixels wait that are to be shaded and lie in the middle of others with the same surface.
-    fn wait_for_even(&mut self, wide: &mut WideResolve, margin: usize) {
+    /// Queues the pixels in the middle of others with the same surface, if that is to be shaded.
+    fn queue_even(&mut self, wide: &mut WideResolve, margin: usize) {
         let (tile, surfaces) = (self.layers.base(), &self.surfaces);
         self.unresolved.clear();
         let flat = wide.flat();
@@ -137,10 +137,10 @@ impl VisibilityPainter<'_> {
         self.unresolved.sort(surfaces.len());
     }
 
-    /// Puts the colours of samples of the finished tile into one of the same rectangle: of those pixels of each row that are needed.
-    pub(super) fn put_shaded_colors(&mut self, colors: &mut SampleColors, needed: impl Fn(usize) -> PixelBits) {
+    /// Puts the colours of all samples of the pixels that are needed of each row into `colors`, a tile of the same rectangle.
+    fn put_shaded_colors(&mut self, colors: &mut SampleColors, needed: impl Fn(usize) -> PixelBits) {
         self.put_colors(colors, &needed);
-        self.wait_for(needed);
+        self.queue(needed);
         let Self {
             context,
             layers,
@@ -181,8 +181,8 @@ impl VisibilityPainter<'_> {
         }
     }
 
-    /// Lets wait what is to be shaded of some pixels of each row.
-    fn wait_for(&mut self, needed: impl Fn(usize) -> PixelBits) {
+    /// Queues what is to be shaded of the pixels that are needed of each row.
+    fn queue(&mut self, needed: impl Fn(usize) -> PixelBits) {
         let Self {
             layers,
             surfaces,
@@ -191,14 +191,15 @@ impl VisibilityPainter<'_> {
         } = self;
         let tile = layers.base();
         unresolved.clear();
-        let is_flat = |surface: SurfaceId, _| surfaces.get(surface).shaded.is_none();
+        let is_shaded = |surface: SurfaceId| surfaces.get(surface).shaded.is_some();
+        let take = |surface, _| !is_shaded(surface);
         for (row, y) in (0_u16..).zip(tile.rect.y.start..tile.rect.y.end) {
             let shown = tile.shown(y);
             for run in needed(row.into()).first(tile.rect.x.length()).runs() {
                 for alike in alike(&shown.whole[..run.end], run) {
                     let surface = shown.whole[alike.start % ROW];
                     if surface < TWO_SURFACES {
-                        if !is_flat(surface, 0) {
+                        if is_shaded(surface) {
                             unresolved.whole(surface, row, alike);
                         }
                         continue;
@@ -207,14 +208,14 @@ impl VisibilityPainter<'_> {
                         let place = [u16::try_from(x).unwrap_or(u16::MAX), row];
                         if surface == TWO_SURFACES {
                             let TwoSurfaces { mask, first, second } = shown.two_surfaces.get(x);
-                            if !is_flat(first, 0) || !is_flat(second, 0) {
+                            if is_shaded(first) || is_shaded(second) {
                                 let parts = [(first, 0, tile.all() & !mask), (second, 0, mask)];
-                                unresolved.parts(place, parts.into_iter(), is_flat);
+                                unresolved.parts(place, parts.into_iter(), take);
                             }
                         } else if let Some(rows) = tile.word_rows(x, y) {
-                            unresolved.split_rows(place, rows, is_flat);
+                            unresolved.split_rows(place, rows, take);
                         } else {
-                            unresolved.split(place, tile.samples(x, y), is_flat);
+                            unresolved.split(place, tile.samples(x, y), take);
                         }
                     }
                 }

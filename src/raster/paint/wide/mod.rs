@@ -8,6 +8,7 @@
 //! | pixels | by |
 //! |---|---|
 //! | in the middle of pixels that show one colour | nothing but that colour ([`flat`]) |
+//! | in the middle of a gradient's pixels, or of a triangle's | the colour there, if it is certain (`visibility::wide_shades`) |
 //! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`], [`dot_means`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |

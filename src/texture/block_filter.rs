@@ -120,19 +120,8 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
             continue;
         }
         if let (LARGE, 1, [Some(one), None]) = (SIDE, count, &levels) {
-            let level = one.tap.level.level;
-            if cells.note_inside(simd, one, points) {
-                by_fours!(simd, out, |i| {
-                    let first = cells.inside::<S, LARGE>(simd, spread, level, i);
-                    let second = cells.inside::<S, LARGE>(simd, spread, level, i + 1);
-                    let third = cells.inside::<S, LARGE>(simd, spread, level, i + 2);
-                    let fourth = cells.inside::<S, LARGE>(simd, spread, level, i + 3);
-                    let low = clamped(simd, both_columns(first, second), 1);
-                    round(simd, low, clamped(simd, both_columns(third, fourth), 1))
-                });
-                continue;
-            }
-            let mut beyond = Beyond::none(simd, (plan, level));
+            cells.note_large(simd, one, points);
+            let mut beyond = Beyond::none(simd, (plan, one.tap.level.level));
             by_fours!(simd, out, |i| {
                 let first = cells.anywhere(simd, spread, &mut beyond, i);
                 let second = cells.anywhere(simd, spread, &mut beyond, i + 1);
@@ -269,24 +258,22 @@ impl Cells {
         }
     }
 
-    /// Notes the large cells of up to [`BLOCK`] samples that have one tap; whether all lie inside the level.
+    /// Notes the large cells of up to [`BLOCK`] samples that have one tap.
     #[inline(always)]
-    fn note_inside<S: Simd>(&mut self, simd: S, one: &OneTap<'_>, points: &[[u16; 2]]) -> bool {
+    fn note_large<S: Simd>(&mut self, simd: S, one: &OneTap<'_>, points: &[[u16; 2]]) {
         let lanes = S::u32s::LEN;
         let last = points.len().saturating_sub(lanes);
-        let mut are_inside = true;
         for first in (0..points.len()).step_by(lanes) {
             let first = first.min(last);
             let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), one.tap.plan.first);
             let at = one.places(simd, &at);
-            are_inside &= self.note::<S, LARGE>(simd, one.tap, SampleVector { at, first });
+            self.note::<S, LARGE>(simd, one.tap, SampleVector { at, first });
         }
-        are_inside
     }
 
-    /// Notes the cells of a vector of samples; whether all lie inside the level.
+    /// Notes the cells of a vector of samples.
     #[inline(always)]
-    fn note<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) -> bool {
+    fn note<S: Simd, const SIDE: usize>(&mut self, simd: S, tap: Tap<'_>, vector: SampleVector<S>) {
         let SampleVector { at, first } = vector;
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
@@ -311,7 +298,6 @@ impl Cells {
             self.keep::<S>(2, first, in_columns::<S>(weights[4], weights[5]));
             self.keep::<S>(3, first, in_columns::<S>(weights[6], weights[7]));
         }
-        inside.all_true()
     }
 
     /// Keeps the weights of a vector's quarters.

@@ -190,7 +190,7 @@ pub(super) struct Edges {
     pub(super) size: [usize; 2],
     pub(super) rows: Bits,
     pub(super) columns: Bits,
-    /// Of rows where diagonals may have steps.
+    /// Steps of diagonals, row by row: [`RISE`] and [`FALL`] of each pixel.
     pub(super) stairs: Bits,
 }
 

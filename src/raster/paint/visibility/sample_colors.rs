@@ -47,7 +47,7 @@ impl VisibilityPainter<'_> {
     }
 
     /// Puts the colours of samples of the finished tile into one of the same rectangle: of those pixels of each row that are needed.
-    /// What is to be shaded gets some colour until it is.
+    /// Samples that are still to be shaded get an arbitrary colour.
     pub(super) fn put_colors(&self, colors: &mut SampleColors, needed: impl Fn(usize) -> PixelBits) {
         dispatch!(simd::level(), simd => put_colors(simd, self, colors, &needed));
     }
@@ -70,7 +70,7 @@ fn resolve_flat<S: Simd>(
             let rows = tile.rect.y.start..tile.rect.y.end;
             for ((row, painted), y) in rows.skip(margin).enumerate().zip(block.rect.y.start..block.rect.y.end) {
                 let (shown, line) = (&tile.row(painted)[margin..], block.line(y));
-                // What is to be shaded gets some colour until it is.
+                // Pixels that are still to be shaded get an arbitrary colour.
                 for run in flat.mixed(row).others(flat.width()).runs() {
                     put_flat(surfaces, &shown[run.clone()], &mut line[run], margin);
                 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::bilinear::mass;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
 use super::nearest_values::ValueList;
+use super::pixel_filter::PixelWork;
 use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
@@ -129,7 +130,13 @@ impl<'a> Filter<'a> {
     /// small enough: a sum may differ from the sum of [`Filter::points`] by rounding, far below one level of a byte
     /// per sample. Where every sample reads the same colour `c`, it is exactly the number of samples times `256 c`.
     pub fn sums(&self, simd: Level, grid: SampleGrid, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
-        pixel_filter::sum(simd, &self.plan(grid), grid.side, list, sums);
+        pixel_filter::find(simd, &self.plan(grid), grid.side, PixelWork::of_list(list, sums));
+    }
+
+    /// [`Filter::sums`] of two lists, prepared once for both. Where there is a shorter way to the means of the first list's pixels,
+    /// these are found instead of their sums; whether they are.
+    pub fn sums_or_means(&self, simd: Level, grid: SampleGrid, work: PixelWork<'_>) -> bool {
+        pixel_filter::find(simd, &self.plan(grid), grid.side, work)
     }
 
     /// For each of the pixels what red, green and blue of the texels of its samples count, where each of these reads the nearest texel

@@ -201,6 +201,13 @@ impl Uncertain {
         Self(distance.simd_lt(S::i32s::splat(simd, UNCERTAIN)).to_bitmask())
     }
 
+    /// The same of pixels from lane `first` on.
+    #[inline(always)]
+    #[must_use]
+    pub(super) fn from(self, first: usize) -> Self {
+        Self(self.0 << first)
+    }
+
     /// The lanes of these pixels, of the first `count`.
     #[inline(always)]
     pub(super) fn lanes(self, count: usize) -> impl Iterator<Item = usize> {
@@ -210,6 +217,13 @@ impl Uncertain {
             rest &= rest.wrapping_sub(1);
             (lane < u64::BITS).then_some(lane as usize)
         })
+    }
+}
+
+impl std::ops::BitOrAssign for Uncertain {
+    #[inline(always)]
+    fn bitor_assign(&mut self, others: Self) {
+        self.0 |= others.0;
     }
 }
 

@@ -29,7 +29,6 @@ use crate::color::Premultiplied16;
 pub(super) struct Found<const N: usize> {
     /// For each sample the texel of each pixel.
     pub(super) texels: [[u32; MAX_LANES]; N],
-    pub(super) uncertain: Uncertain,
 }
 
 /// The sums over the samples of pixels.
@@ -47,7 +46,7 @@ pub(super) fn sum<S: Simd, const N: usize>(
     let mut found = Found::NONE;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
         let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
-        found.find(simd, samples, pixels, middle);
+        let uncertain = found.find(simd, samples, pixels, middle, 0);
         let found_texels = &found.texels[..samples.count];
         match masks {
             None => {
@@ -57,11 +56,15 @@ pub(super) fn sum<S: Simd, const N: usize>(
             }
             Some(masks) => {
                 for (lane, (sum, mask)) in sums.iter_mut().zip(masks).enumerate() {
-                    *sum = sum_some(texels, found_texels, lane, *mask);
+                    if N == FEW {
+                        sum_masked(simd, texels, found_texels, lane, *mask).store_slice(sum);
+                    } else {
+                        *sum = sum_some(texels, found_texels, lane, *mask);
+                    }
                 }
             }
         }
-        sum_uncertain(simd, (plan, samples.side), found.uncertain, (pixels, masks), sums);
+        sum_uncertain(simd, (plan, samples.side), uncertain, (pixels, masks), sums);
     }
 }
 
@@ -109,22 +112,32 @@ fn sum_uncertain<S: Simd>(
     sums: &mut [[u32; 4]],
 ) {
     for lane in uncertain.lanes(pixels.len()) {
-        let mask = masks.map(|masks| masks[lane]);
-        sums[lane] = if (side * side) as usize > FEW {
-            exact::<S, MANY>(simd, plan, side, pixels[lane], mask)
-        } else {
-            exact::<S, FEW>(simd, plan, side, pixels[lane], mask)
-        };
+        sums[lane] = exact_sum(simd, (plan, side), pixels[lane], masks.map(|masks| masks[lane]));
+    }
+}
+
+/// The sum of a pixel's samples as they are decided one by one.
+#[inline(always)]
+pub(super) fn exact_sum<S: Simd>(
+    simd: S,
+    (plan, side): (&Plan<'_>, u32),
+    pixel: [u16; 2],
+    mask: Option<u64>,
+) -> [u32; 4] {
+    if (side * side) as usize > FEW {
+        exact::<S, MANY>(simd, plan, side, pixel, mask)
+    } else {
+        exact::<S, FEW>(simd, plan, side, pixel, mask)
     }
 }
 
 impl<const N: usize> Found<N> {
     pub(super) const NONE: Self = Self {
         texels: [[0; MAX_LANES]; N],
-        uncertain: Uncertain::NONE,
     };
 
-    /// Finds the texels of up to a vector of pixels; `middle` is the centre of the pixel that lists are counted from.
+    /// Finds the texels of up to a vector of pixels, from lane `first` on; `middle` is the centre of the pixel that lists are
+    /// counted from. For which pixels that is uncertain.
     #[inline(always)]
     pub(super) fn find<S: Simd>(
         &mut self,
@@ -132,25 +145,26 @@ impl<const N: usize> Found<N> {
         samples: &NearestSamples<'_, N>,
         pixels: &[[u16; 2]],
         middle: DVec2,
-    ) {
+        first: usize,
+    ) -> Uncertain {
         if let Some([x, y]) = &samples.endless {
             let (at, level) = (samples.centres(simd, pixels, middle), &samples.level);
             let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];
             self.find_around(
                 simd,
-                samples,
+                (samples, first),
                 centres,
                 #[inline(always)]
                 |[column, row]| [in_texture(simd, x, column), in_texture(simd, y, row)],
-            );
+            )
         } else {
             self.find_around(
                 simd,
-                samples,
+                (samples, first),
                 samples.centres_around(simd, pixels, middle),
                 #[inline(always)]
                 |at| at,
-            );
+            )
         }
     }
 
@@ -159,10 +173,10 @@ impl<const N: usize> Found<N> {
     fn find_around<S: Simd>(
         &mut self,
         simd: S,
-        samples: &NearestSamples<'_, N>,
+        (samples, first): (&NearestSamples<'_, N>, usize),
         [x, y]: [S::i32s; 2],
         inside: impl Fn([S::i32s; 2]) -> [S::i32s; 2],
-    ) {
+    ) -> Uncertain {
         let number = |value: i32| S::i32s::splat(simd, value);
         let level = &samples.level;
         let last = [level.level.width(), level.level.height()].map(|size| size.cast_signed() - 1);
@@ -183,9 +197,9 @@ impl<const N: usize> Found<N> {
             let at: S::i16s = (column & number(0xFFFF) | row).bitcast();
             let inside = at.max(S::i16s::splat(simd, 0)).min(last);
             let offset: S::u32s = inside.pairwise_dot_product(stride).bitcast();
-            offset.store_slice(&mut texels[..S::u32s::LEN]);
+            offset.store_slice(&mut texels[first..first + S::u32s::LEN]);
         }
-        self.uncertain = Uncertain::new(simd, distance);
+        Uncertain::new(simd, distance)
     }
 }
 
@@ -193,23 +207,67 @@ impl<const N: usize> Found<N> {
 #[inline(always)]
 fn sum_all<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize) -> u32x4<S> {
     let texel = |found: &[u32; MAX_LANES]| u32::from_le_bytes(texels[found[lane % MAX_LANES] as usize]);
-    let zero = u8x16::splat(simd, 0);
-    let widened = |texels: [u32; 4]| {
-        let bytes: u8x16<S> = u32x4::simd_from(simd, texels).bitcast();
-        bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>()
-    };
     // Of every second sample: half of 256 bytes fit 16 bits.
     let mut halves = u16x8::splat(simd, 0);
     let (fours, rest) = found.as_chunks::<4>();
     for [a, b, c, d] in fours {
-        halves += widened([texel(a), texel(b), texel(c), texel(d)]);
+        halves += every_other(simd, u32x4::simd_from(simd, [texel(a), texel(b), texel(c), texel(d)]));
     }
     let mut sums = whole(simd, halves);
     for found in rest {
-        sums += whole(simd, widened([texel(found), 0, 0, 0]));
+        sums += whole(simd, every_other(simd, u32x4::simd_from(simd, [texel(found), 0, 0, 0])));
     }
     // A byte is stored as 256 times itself.
     sums << 8
+}
+
+/// The same of those that a mask names. All are read: to look which ones costs more.
+#[inline(always)]
+fn sum_masked<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize, mask: u64) -> u32x4<S> {
+    /// All bits of those of four numbers that a mask of four names.
+    const NAMED: [[u32; 4]; 16] = {
+        let mut named = [[0; 4]; 16];
+        let mut mask = 0;
+        while mask < 16 {
+            let mut i = 0;
+            while i < 4 {
+                named[mask][i] = if mask >> i & 1 == 1 { u32::MAX } else { 0 };
+                i += 1;
+            }
+            mask += 1;
+        }
+        named
+    };
+    let texel = |found: &[u32; MAX_LANES]| u32::from_le_bytes(texels[found[lane % MAX_LANES] as usize]);
+    let (fours, rest) = found.as_chunks::<4>();
+    let mut halves = u16x8::splat(simd, 0);
+    let mut mask = mask;
+    for [a, b, c, d] in fours {
+        let named = u32x4::simd_from(simd, NAMED[(mask & 15) as usize]);
+        halves += every_other(
+            simd,
+            u32x4::simd_from(simd, [texel(a), texel(b), texel(c), texel(d)]) & named,
+        );
+        mask >>= 4;
+    }
+    let mut sums = whole(simd, halves);
+    for found in rest {
+        let named = if mask & 1 == 1 { u32::MAX } else { 0 };
+        sums += whole(
+            simd,
+            every_other(simd, u32x4::simd_from(simd, [texel(found) & named, 0, 0, 0])),
+        );
+        mask >>= 1;
+    }
+    // A byte is stored as 256 times itself.
+    sums << 8
+}
+
+/// The sums of two of four texels each: those of the lower two in the lower four numbers.
+#[inline(always)]
+fn every_other<S: Simd>(simd: S, texels: u32x4<S>) -> u16x8<S> {
+    let (bytes, zero) = (texels.bitcast::<u8x16<S>>(), u8x16::splat(simd, 0));
+    bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>()
 }
 
 /// The sums of the lower four numbers and the upper four.

@@ -106,14 +106,14 @@ fn sum_each<S: Simd, const N: usize>(
     let texels = samples.level.level.texels();
     let mut found = Found::<N>::NONE;
     for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
-        found.find(simd, samples, pixels, middle);
+        let uncertain = found.find(simd, samples, pixels, middle, 0);
         for (lane, sum) in sums.iter_mut().enumerate() {
             *sum = [0; 3];
             for texel in &found.texels[..samples.count] {
                 add(sum, texels[texel[lane % MAX_LANES] as usize], 1, list.values);
             }
         }
-        put_exact::<S, N>(simd, (plan, side), found.uncertain, (pixels, list), sums);
+        put_exact::<S, N>(simd, (plan, side), uncertain, (pixels, list), sums);
     }
 }
 

@@ -16,6 +16,7 @@ use super::filter_plan::{PixelList, Plan};
 use super::fixed_point::{MASS, MASS_BITS};
 use super::folded_blocks::Folded;
 use super::nearest_counts::FourTexels;
+use super::nearest_means::{self, ByteMean};
 use super::nearest_samples::{FEW, MANY, NearestSamples};
 use super::nearest_sums;
 use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
@@ -23,7 +24,7 @@ use super::simd_channels::{self, FromColors, Spread};
 use super::tent_weights::weigh;
 use super::texel_coordinates::{Positions, columns_and_rows};
 use super::{PixelSampling, Wrap, anisotropic_filter, block_filter, sample_filter};
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, Resolver};
 use crate::simd::Level;
 
 /// Where a vector of pixels reads one level.
@@ -57,22 +58,62 @@ struct NextSample {
     sample: usize,
 }
 
-/// See [`super::Filter::sums`].
-pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
-    let scale = Scale::new(side);
-    let taps = plan.line.taps.count;
-    if plan.pixel == PixelSampling::Nearest && sum_nearest(level, plan, side, list, sums) {
-        return;
+/// What is wanted of the pixels of one triangle.
+#[derive(Debug)]
+pub struct PixelWork<'w> {
+    /// Pixels of which all samples count, and others.
+    pub lists: [PixelList<'w>; 2],
+    /// Where their sums go: as many as pixels.
+    pub sums: [&'w mut [[u32; 4]]; 2],
+    /// What makes pixels of the sums of the former, which are opaque, and where these may go instead.
+    pub means: Option<(&'w Resolver, &'w mut [u32])>,
+}
+
+/// The sums of pixels, or their means; whether the latter. See [`super::Filter::sums`].
+pub(super) fn find(level: Level, plan: &Plan<'_>, side: u32, mut work: PixelWork<'_>) -> bool {
+    if plan.pixel == PixelSampling::Nearest
+        && let Some(are_means) = find_nearest(level, plan, side, &mut work)
+    {
+        return are_means;
     }
-    let samples = Samples { plan, scale, list };
-    match (Footings::of_plan(plan, scale), plan.block()) {
-        (Some(footings), _) if plan.wrap == Wrap::Clamp => {
-            dispatch!(level, simd => sum_texels::<_, false>(simd, plan, &footings, list, sums));
+    let scale = Scale::new(side);
+    let (footings, block) = (Footings::of_plan(plan, scale), plan.block());
+    for (list, sums) in work.by_list() {
+        let samples = Samples { plan, scale, list };
+        match (&footings, &block) {
+            (Some(footings), _) if plan.wrap == Wrap::Clamp => {
+                dispatch!(level, simd => sum_texels::<_, false>(simd, plan, footings, list, sums));
+            }
+            (Some(footings), _) => dispatch!(level, simd => sum_texels::<_, true>(simd, plan, footings, list, sums)),
+            (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, weights, sums)),
+            (None, None) if plan.line.taps.count == 1 => {
+                dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums));
+            }
+            (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
         }
-        (Some(footings), _) => dispatch!(level, simd => sum_texels::<_, true>(simd, plan, &footings, list, sums)),
-        (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, &weights, sums)),
-        (None, None) if taps == 1 => dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums)),
-        (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
+    }
+    false
+}
+
+impl<'w> PixelWork<'w> {
+    /// What is wanted of one list.
+    pub(super) fn of_list(list: PixelList<'w>, sums: &'w mut [[u32; 4]]) -> Self {
+        let none = PixelList {
+            pixels: &[],
+            masks: None,
+        };
+        Self {
+            lists: [list, none],
+            sums: [sums, &mut []],
+            means: None,
+        }
+    }
+
+    /// The lists in which there are any pixels.
+    fn by_list(&mut self) -> impl Iterator<Item = (PixelList<'w>, &mut [[u32; 4]])> {
+        let both = self.lists.into_iter().zip(&mut self.sums);
+        both.map(|(list, sums)| (list, &mut **sums))
+            .filter(|(list, _)| !list.pixels.is_empty())
     }
 }
 
@@ -117,37 +158,40 @@ struct Samples<'s> {
     list: PixelList<'s>,
 }
 
-/// Fetches a texel for every sample, where that is all; whether it is.
-fn sum_nearest(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) -> bool {
+/// Fetches a texel for every sample, or fewer, where that is all; if so, whether means were found.
+fn find_nearest(level: Level, plan: &Plan<'_>, side: u32, work: &mut PixelWork<'_>) -> Option<bool> {
     if (side * side) as usize > FEW {
-        sum_nearest_of::<MANY>(level, plan, side, list, sums)
+        find_nearest_of::<MANY>(level, plan, side, work)
     } else {
-        sum_nearest_of::<FEW>(level, plan, side, list, sums)
+        find_nearest_of::<FEW>(level, plan, side, work)
     }
 }
 
 // Not inlined: its memory is not for lists that do not need it.
 #[inline(never)]
-fn sum_nearest_of<const N: usize>(
-    level: Level,
-    plan: &Plan<'_>,
-    side: u32,
-    list: PixelList<'_>,
-    sums: &mut [[u32; 4]],
-) -> bool {
+fn find_nearest_of<const N: usize>(level: Level, plan: &Plan<'_>, side: u32, work: &mut PixelWork<'_>) -> Option<bool> {
     /// Fewer samples are read as quickly as counted.
     const MANY_SAMPLES: u32 = 9;
-    let Some(samples) = NearestSamples::<N>::new(plan, side) else {
-        return false;
-    };
-    let four = (side * side >= MANY_SAMPLES)
-        .then(|| FourTexels::of(&samples))
-        .flatten();
-    match four {
-        Some(four) => dispatch!(level, simd => nearest_sums::sum_counted(simd, plan, (&samples, four), list, sums)),
-        None => dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, list, sums)),
+    let samples = &NearestSamples::<N>::new(plan, side)?;
+    let four = (side * side >= MANY_SAMPLES).then(|| FourTexels::of(samples)).flatten();
+    if let Some(four) = four {
+        for (list, sums) in work.by_list() {
+            dispatch!(level, simd => nearest_sums::sum_counted(simd, plan, (samples, four), list, sums));
+        }
+        return Some(false);
     }
-    true
+    let mut are_means = false;
+    if let Some((resolver, values)) = &mut work.means
+        && let Some(mean) = ByteMean::new(resolver)
+    {
+        let pixels = work.lists[0].pixels;
+        dispatch!(level, simd => nearest_means::means(simd, (plan, samples), mean, pixels, values));
+        are_means = true;
+    }
+    for (list, sums) in work.by_list().skip(usize::from(are_means)) {
+        dispatch!(level, simd => nearest_sums::sum(simd, plan, samples, list, sums));
+    }
+    Some(are_means)
 }
 
 /// Filters every sample.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::color::{Premultiplied16, ResolveSpace};
+use crate::color::{Premultiplied16, ResolveSpace, Resolver};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::place_sums::PlaceSums;
@@ -88,6 +88,14 @@ pub(crate) struct MaskedPixels<'p> {
     pub(crate) first: u32,
 }
 
+/// Where sums of samples go: those of all samples of some pixels, and of some samples of others.
+#[derive(Debug)]
+pub(crate) struct Wanted<'p> {
+    pub(crate) sums: [&'p mut [[u32; 4]]; 2],
+    /// What makes pixels of the former, which are opaque, and where these may go instead.
+    pub(crate) means: Option<(&'p Resolver, &'p mut [u32])>,
+}
+
 /// A single sample of the frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadedSample {
@@ -131,6 +139,30 @@ impl PixelRun {
     pub(crate) fn places(self) -> impl ExactSizeIterator<Item = [u16; 2]> {
         let row = self.row;
         self.columns().map(move |column| [column, row])
+    }
+
+    /// Adds the places of the pixels of all these runs, one after the other.
+    pub(crate) fn add_places(runs: &[Self], places: &mut Vec<[u16; 2]>) {
+        /// Most runs are so short that it takes longer to count than to take back those that are too many.
+        const TOGETHER: u16 = 8;
+        for run in runs {
+            let end = places.len() + run.len();
+            for first in run.columns().step_by(usize::from(TOGETHER)) {
+                let mut eight = [[0, run.row]; TOGETHER as usize];
+                for (place, i) in eight.iter_mut().zip(0..TOGETHER) {
+                    place[0] = first.wrapping_add(i);
+                }
+                places.extend_from_slice(&eight);
+            }
+            places.truncate(end);
+        }
+    }
+
+    /// The places of the pixels of all these runs.
+    pub(crate) fn all_places(runs: &[Self]) -> Vec<[u16; 2]> {
+        let mut places = Vec::new();
+        Self::add_places(runs, &mut places);
+        places
     }
 
     /// The place of the first one.

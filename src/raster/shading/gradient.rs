@@ -277,7 +277,7 @@ impl Shade for GradientShader<'_> {
         let Some(colors) = self.line_colors().filter(|_| !self.is_level()) else {
             return false;
         };
-        let places: Vec<[u16; 2]> = runs.iter().flat_map(|run| run.places()).collect();
+        let places = PixelRun::all_places(runs);
         let at = |i: u32| u8::try_from(i).unwrap_or(u8::MAX);
         let rows = 0..grid.side;
         let inside: Vec<Position> = rows

@@ -5,7 +5,7 @@ use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean, SumBounds};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{
-    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample, Wanted,
 };
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
@@ -112,6 +112,12 @@ pub(super) trait Shade {
         masked_sums_by_points(self, pixels, sums);
     }
 
+    /// [`Shade::pixel_sums`] and [`Shade::masked_sums`], where both are wanted. Where there is a shorter way to the means of the
+    /// former, these are found instead of their sums; whether they are.
+    fn sums_or_means(&self, pixels: Pixels<'_>, parts: MaskedPixels<'_>, wanted: Wanted<'_>) -> bool {
+        sums_of_both(self, pixels, parts, wanted)
+    }
+
     /// What is interpolated at a sample, for whoever explains its colour.
     fn interpolated(&self, _: ShadedSample) -> Attributes {
         Attributes::None
@@ -130,6 +136,23 @@ pub(super) fn pixels_by_points(shade: &(impl Shade + ?Sized), pixels: Pixels<'_>
     for (value, color) in values.iter_mut().zip(colors) {
         *value = color.to_pixel(rules);
     }
+}
+
+/// [`Shade::sums_or_means`] one after the other.
+pub(super) fn sums_of_both(
+    shade: &(impl Shade + ?Sized),
+    pixels: Pixels<'_>,
+    parts: MaskedPixels<'_>,
+    Wanted { sums, .. }: Wanted<'_>,
+) -> bool {
+    let [of_pixels, of_parts] = sums;
+    if !pixels.places.is_empty() {
+        shade.pixel_sums(pixels, of_pixels);
+    }
+    if !parts.pixels.places.is_empty() {
+        shade.masked_sums(parts, of_parts);
+    }
+    false
 }
 
 /// [`Shade::masked_sums`] sample by sample.

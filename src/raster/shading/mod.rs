@@ -32,7 +32,7 @@ use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean, SumBounds};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{
-    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample,
+    BoundedPixels, MaskedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext, ShadedSample, Wanted,
 };
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
@@ -233,7 +233,7 @@ impl<'a> Shader<'a> {
                 return true;
             }
         }
-        let places: Vec<[u16; 2]> = runs.iter().flat_map(|run| run.places()).collect();
+        let places = PixelRun::all_places(runs);
         let places = &places;
         self.pixels(Pixels { grid, places }, values);
         true
@@ -291,6 +291,17 @@ impl<'a> Shader<'a> {
             Some(colors) => times_each(&colors, pixels.masks.iter().map(|mask| mask.count_ones()), sums),
             None => ask!(&self.any, AnyShader, shader => shader.masked_sums(pixels, sums)),
         }
+    }
+
+    /// [`Shader::pixel_sums`] and [`Shader::masked_sums`], where both are wanted; see [`Shade::sums_or_means`].
+    pub(crate) fn sums_or_means(&self, pixels: Pixels<'_>, parts: MaskedPixels<'_>, wanted: Wanted<'_>) -> bool {
+        if self.centres.is_some() {
+            let [of_pixels, of_parts] = wanted.sums;
+            self.pixel_sums(pixels, of_pixels);
+            self.masked_sums(parts, of_parts);
+            return false;
+        }
+        ask!(&self.any, AnyShader, shader => shader.sums_or_means(pixels, parts, wanted))
     }
 
     /// The colours in the centres of pixels, where those are all their samples'.

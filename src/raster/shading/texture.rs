@@ -6,15 +6,17 @@ use crate::color::{Premultiplied16, SampleMean, unit_to_16};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample, Wanted};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
-use crate::raster::shading::kind::{PaintKind, Shade, at_corner, masked_sums_by_points, pixels_by_points};
+use crate::raster::shading::kind::{
+    PaintKind, Shade, at_corner, masked_sums_by_points, pixels_by_points, sums_of_both,
+};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::{
-    AreaFilter, ByteValues, Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, SamplingSettings, Texture,
-    UvMap, ValueList,
+    AreaFilter, ByteValues, Filter, Footprint, PixelList, PixelWork, Reading, SampleGrid, Sampler, SamplingSettings,
+    Texture, UvMap, ValueList,
 };
 
 /// Most samples along the side of a pixel of which a filter takes sums by masks.
@@ -162,6 +164,21 @@ impl Shade for TextureShader<'_> {
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
         self.filtered_sums(pixels, None, sums);
+    }
+
+    fn sums_or_means(&self, pixels: Pixels<'_>, parts: MaskedPixels<'_>, wanted: Wanted<'_>) -> bool {
+        match &self.reader {
+            Reader::Standard(filter) if pixels.grid.side <= MAX_MASKED_SIDE => {
+                let list = |pixels, masks| PixelList { pixels, masks };
+                let work = PixelWork {
+                    lists: [list(pixels.places, None), list(parts.pixels.places, Some(parts.masks))],
+                    sums: wanted.sums,
+                    means: wanted.means,
+                };
+                filter.sums_or_means(simd::level(), pixels.grid, work)
+            }
+            _ => sums_of_both(self, pixels, parts, wanted),
+        }
     }
 
     fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {

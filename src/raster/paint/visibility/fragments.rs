@@ -1,71 +1,90 @@
 //! The fragments of one primitive, shaded together: whole pixels at once, then parts of pixels 64 samples at a time.
 
+use crate::color::Resolver;
 use crate::raster::paint::visibility::shading_queue::Fragment;
 use crate::raster::shading::Shader;
-use crate::raster::shading::context::{PixelRun, Pixels};
+use crate::raster::shading::context::{PixelRun, Pixels, Wanted};
 use crate::texture::SampleGrid;
+
+/// Samples that a mask has bits for.
+const MASK_BITS: u32 = 64;
+
+/// The fragments of one primitive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fragments<'f> {
+    /// Pixels of which all samples show it; where all of a run are alike (`is_level`), the first one stands for them.
+    pub(super) runs: &'f [PixelRun],
+    pub(super) is_level: bool,
+    /// Parts of pixels, whose places these are, and how many samples a pixel has.
+    pub(super) parts: &'f [Fragment],
+    pub(super) places: &'f [[u16; 2]],
+    pub(super) count: u32,
+}
 
 /// Memory for the fragments of one primitive.
 #[derive(Debug, Default)]
 pub(super) struct FragmentSums {
-    /// Pixels of the tile, and which of their samples; the latter empty where it is all.
+    /// Pixels of the tile all of whose samples count.
+    whole: Vec<[u16; 2]>,
+    pub(super) whole_sums: Vec<[u32; 4]>,
+    /// Others, which of their samples count, and where their sums go.
     places: Vec<[u16; 2]>,
     masks: Vec<u64>,
-    /// Where their sums go.
     targets: Vec<u32>,
     sums: Vec<[u32; 4]>,
 }
 
 impl FragmentSums {
-    /// The sums of all samples of the pixels of runs, one after the other; where all of a run are alike (`is_level`), only of the
-    /// first one.
-    pub(super) fn sums_of(
+    /// Finds the sums of all samples of whole pixels, and of the parts of others as far as they are among their first 64 samples. Where
+    /// there is a shorter way to the `means` of whole pixels, which must be opaque then, these are found instead; whether they are.
+    pub(super) fn find(
         &mut self,
-        (runs, is_level): (&[PixelRun], bool),
+        fragments: Fragments<'_>,
         grid: SampleGrid,
         shader: &Shader<'_>,
-    ) -> &mut [[u32; 4]] {
-        self.places.clear();
-        for run in runs {
-            if is_level {
-                self.places.push(run.first());
-            } else {
-                self.places.extend(run.places());
-            }
+        means: Option<(&Resolver, &mut [u32])>,
+    ) -> bool {
+        let Fragments { runs, is_level, .. } = fragments;
+        self.whole.clear();
+        if is_level {
+            self.whole.extend(runs.iter().map(|run| run.first()));
+        } else {
+            PixelRun::add_places(runs, &mut self.whole);
         }
-        self.make_sums();
-        if !self.places.is_empty() {
-            let places = &self.places;
-            shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
-        }
-        &mut self.sums
+        self.gather(fragments, 0);
+        clear(&mut self.whole_sums, self.whole.len());
+        clear(&mut self.sums, self.places.len());
+        let pixels = |places| Pixels { grid, places };
+        let wanted = Wanted {
+            sums: [&mut self.whole_sums, &mut self.sums],
+            means,
+        };
+        shader.sums_or_means(pixels(&self.whole), pixels(&self.places).masked(&self.masks, 0), wanted)
     }
 
-    /// Calls `add` with the sum of every part of a pixel, of which each has `count` samples: with the number of the pixel, whose
-    /// places these are, the sum, and how many samples it is of. How many samples were shaded.
+    /// Calls `add` with the sum of every part of a pixel, after [`FragmentSums::find`]: with the number of the pixel, the sum, and how
+    /// many samples it is of. How many samples were shaded.
     #[inline]
     pub(super) fn each_part(
         &mut self,
-        (fragments, places): (&[Fragment], &[[u16; 2]]),
+        fragments: Fragments<'_>,
         grid: SampleGrid,
-        (shader, count): (&Shader<'_>, u32),
+        shader: &Shader<'_>,
         mut add: impl FnMut(u32, [u32; 4], u32),
     ) -> u64 {
         let mut shaded = 0;
-        if fragments.is_empty() {
-            return shaded;
-        }
-        for first in (0..count).step_by(64) {
-            self.gather(fragments, places, first);
-            if self.places.is_empty() {
-                continue;
+        for first in (0..fragments.count).step_by(MASK_BITS as usize) {
+            if first > 0 {
+                self.gather(fragments, first);
+                clear(&mut self.sums, self.places.len());
+                let pixels = Pixels {
+                    grid,
+                    places: &self.places,
+                };
+                if !self.places.is_empty() {
+                    shader.masked_sums(pixels.masked(&self.masks, first), &mut self.sums);
+                }
             }
-            self.make_sums();
-            let pixels = Pixels {
-                grid,
-                places: &self.places,
-            };
-            shader.masked_sums(pixels.masked(&self.masks, first), &mut self.sums);
             for ((target, sum), mask) in self.targets.iter().zip(&self.sums).zip(&self.masks) {
                 let samples = mask.count_ones();
                 shaded += u64::from(samples);
@@ -75,12 +94,12 @@ impl FragmentSums {
         shaded
     }
 
-    /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
-    fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
+    /// Gathers the parts of pixels that are among the 64 samples from `first` on.
+    fn gather(&mut self, Fragments { parts, places, .. }: Fragments<'_>, first: u32) {
         self.places.clear();
         self.masks.clear();
         self.targets.clear();
-        for fragment in fragments {
+        for fragment in parts {
             if u32::from(fragment.first) == first {
                 self.places.push(places[fragment.pixel as usize]);
                 self.masks.push(fragment.mask);
@@ -88,9 +107,10 @@ impl FragmentSums {
             }
         }
     }
+}
 
-    fn make_sums(&mut self) {
-        self.sums.clear();
-        self.sums.resize(self.places.len(), [0; 4]);
-    }
+/// Makes so many sums of nothing.
+fn clear(sums: &mut Vec<[u32; 4]>, count: usize) {
+    sums.clear();
+    sums.resize(count, [0; 4]);
 }

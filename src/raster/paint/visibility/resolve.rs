@@ -11,6 +11,7 @@ use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::method::Rounding;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
+use crate::raster::paint::visibility::fragments::Fragments;
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::paint_stack::Primitive;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
@@ -336,32 +337,45 @@ impl VisibilityPainter<'_> {
             let nothing_above = kept == Premultiplied16::ONE;
             let pixels: usize = runs.iter().map(|run| run.len()).sum();
             values.resize(values.len().max(pixels), 0);
+            let count = resolver.count();
+            let mut whole = Fragments {
+                runs,
+                is_level: paint.is_level(context),
+                parts: fragments,
+                places,
+                count,
+            };
+            let mut means = None;
             if let Whole::Put(block) = target
                 && nothing_above
-                && shader.runs(runs, grid, resolver, &mut values[..pixels])
             {
-                *samples_shaded += shader.evaluations(pixels as u64 * u64::from(resolver.count()), pixels);
-                put_runs(runs, false, values, block);
-            } else {
-                let is_level = paint.is_level(context);
-                let whole = shading.sums_of((runs, is_level), grid, &shader);
-                *samples_shaded += shader.evaluations(whole.len() as u64 * u64::from(resolver.count()), whole.len());
-                if !nothing_above {
-                    for sum in &mut *whole {
-                        *sum = shown.over_shaded(*sum, kept, resolver.count());
-                    }
-                }
-                match target {
-                    Whole::Keep(kept) => *kept = whole.first().copied().or(*kept),
-                    Whole::Put(block) => {
-                        let values = &mut values[..whole.len()];
-                        resolver.pixels(whole, values);
-                        put_runs(runs, is_level, values, block);
-                    }
+                if shader.runs(runs, grid, resolver, &mut values[..pixels]) {
+                    *samples_shaded += shader.evaluations(pixels as u64 * u64::from(count), pixels);
+                    put_runs(runs, false, values, block);
+                    whole.runs = &[];
+                } else {
+                    means = Some((&*resolver, &mut values[..pixels]));
                 }
             }
-            let count = resolver.count();
-            let of_parts = shading.each_part((fragments, places), grid, (&shader, count), |pixel, found, samples| {
+            let are_means = shading.find(whole, grid, &shader, means);
+            let found = &mut shading.whole_sums;
+            *samples_shaded += shader.evaluations(found.len() as u64 * u64::from(count), found.len());
+            if !nothing_above {
+                for sum in &mut *found {
+                    *sum = shown.over_shaded(*sum, kept, count);
+                }
+            }
+            match target {
+                Whole::Keep(kept) => *kept = found.first().copied().or(*kept),
+                Whole::Put(block) => {
+                    let values = &mut values[..found.len()];
+                    if !are_means {
+                        resolver.pixels(found, values);
+                    }
+                    put_runs(whole.runs, whole.is_level, values, block);
+                }
+            }
+            let of_parts = shading.each_part(whole, grid, &shader, |pixel, found, samples| {
                 let found = shown.over_shaded(found, kept, samples);
                 for (sum, channel) in sums[pixel as usize].iter_mut().zip(found) {
                     *sum += channel;

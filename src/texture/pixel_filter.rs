@@ -214,12 +214,24 @@ fn sum_samples<S: Simd>(
     sums.fill([0; 4]);
     let mut batch = Batch::EMPTY;
     let mut next = NextSample { pixel: 0, sample: 0 };
+    let are_whole = list.masks.is_none() && inside.len() <= BATCH;
     while next.pixel < list.pixels.len() {
-        batch.fill(list, inside, scale.side, &mut next);
+        let first = next.pixel;
+        if are_whole {
+            batch.fill_whole(list.pixels, inside, scale.side, &mut next);
+        } else {
+            batch.fill(list, inside, scale.side, &mut next);
+        }
         let points = &batch.points[..batch.count];
         let colors = &mut colors[..batch.count];
         filter.filter(simd, plan, points, colors);
-        batch.add_to(sums, colors);
+        if are_whole {
+            for (sum, colors) in sums[first..].iter_mut().zip(colors.chunks_exact(inside.len())) {
+                *sum = Premultiplied16::sums(colors);
+            }
+        } else {
+            batch.add_to(sums, colors);
+        }
     }
 }
 
@@ -230,6 +242,29 @@ impl Batch {
         pixels: [(0, 0); BATCH],
         pixel_count: 0,
     };
+
+    /// Takes all samples of as many pixels as fit from the next one on, which moves on. In a pixel they lie `inside`.
+    #[inline(always)]
+    fn fill_whole(&mut self, pixels: &[[u16; 2]], inside: &[[u16; 2]], side: u32, next: &mut NextSample) {
+        let side = u16::try_from(side).unwrap_or(1);
+        let together = BATCH / inside.len();
+        let pixels = &pixels[next.pixel..pixels.len().min(next.pixel + together)];
+        for (pixel, points) in pixels.iter().zip(self.points.chunks_exact_mut(inside.len())) {
+            let corner = pixel.map(|at| at.wrapping_mul(side));
+            let ((fours, rest), (fours_inside, rest_inside)) = (points.as_chunks_mut::<4>(), inside.as_chunks::<4>());
+            // A length that is known makes vector code of the loop.
+            for (points, inside) in fours.iter_mut().zip(fours_inside) {
+                for (point, inside) in points.iter_mut().zip(inside) {
+                    *point = point_at(corner, *inside);
+                }
+            }
+            for (point, inside) in rest.iter_mut().zip(rest_inside) {
+                *point = point_at(corner, *inside);
+            }
+        }
+        self.count = pixels.len() * inside.len();
+        next.pixel += pixels.len();
+    }
 
     /// Takes samples, as many as fit, from `next` on, and moves it on. In a pixel they lie `inside`.
     #[inline(always)]

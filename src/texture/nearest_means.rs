@@ -66,9 +66,9 @@ pub(super) fn means<S: Simd, const N: usize>(
     let texels = samples.level.level.texels();
     let mut found = Found::<N>::NONE;
     for (pixels, values) in pixels.chunks(MAX_LANES).zip(values.chunks_mut(MAX_LANES)) {
-        let mut uncertain = found.find(simd, samples, pixels, middle, 0);
+        let mut uncertain = found.find(simd, samples, (pixels, 0), middle);
         for first in (0..pixels.len()).step_by(S::u32s::LEN).skip(1) {
-            uncertain |= found.find(simd, samples, &pixels[first..], middle, first).from(first);
+            uncertain |= found.find(simd, samples, (pixels, first), middle).from(first);
         }
         let mut red_blue = u32x16::splat(simd, 0);
         let mut green_alpha = u32x16::splat(simd, 0);

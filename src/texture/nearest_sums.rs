@@ -46,7 +46,7 @@ pub(super) fn sum<S: Simd, const N: usize>(
     let mut found = Found::NONE;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
         let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
-        let uncertain = found.find(simd, samples, pixels, middle, 0);
+        let uncertain = found.find(simd, samples, (pixels, 0), middle);
         let found_texels = &found.texels[..samples.count];
         match masks {
             None => {
@@ -136,17 +136,17 @@ impl<const N: usize> Found<N> {
         texels: [[0; MAX_LANES]; N],
     };
 
-    /// Finds the texels of up to a vector of pixels, from lane `first` on; `middle` is the centre of the pixel that lists are
-    /// counted from. For which pixels that is uncertain.
+    /// Finds the texels of up to a vector of pixels from the one of number `first` on, which is that of their lane; `middle` is the
+    /// centre of the pixel that lists are counted from. For which pixels that is uncertain, from the first one on.
     #[inline(always)]
     pub(super) fn find<S: Simd>(
         &mut self,
         simd: S,
         samples: &NearestSamples<'_, N>,
-        pixels: &[[u16; 2]],
+        (pixels, first): (&[[u16; 2]], usize),
         middle: DVec2,
-        first: usize,
     ) -> Uncertain {
+        let pixels = &pixels[first..];
         if let Some([x, y]) = &samples.endless {
             let (at, level) = (samples.centres(simd, pixels, middle), &samples.level);
             let centres = [at.endless(simd, &level.x, x), at.endless(simd, &level.y, y)];

@@ -106,7 +106,7 @@ fn sum_each<S: Simd, const N: usize>(
     let texels = samples.level.level.texels();
     let mut found = Found::<N>::NONE;
     for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
-        let uncertain = found.find(simd, samples, pixels, middle, 0);
+        let uncertain = found.find(simd, samples, (pixels, 0), middle);
         for (lane, sum) in sums.iter_mut().enumerate() {
             *sum = [0; 3];
             for texel in &found.texels[..samples.count] {

@@ -15,7 +15,7 @@ use crate::raster::paint::visibility::fragments::Fragments;
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::paint_stack::Primitive;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
+use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
@@ -322,30 +322,25 @@ impl VisibilityPainter<'_> {
             places, sums, sorted, ..
         } = unresolved;
         let grid = context.samples_from(origin);
-        for ToShade {
-            surface,
-            runs,
-            fragments,
-        } in sorted.by_surface()
-        {
-            let shown = surfaces.get(surface);
+        for to_shade in sorted.by_surface() {
+            let (runs, parts) = (to_shade.runs, to_shade.fragments);
+            let shown = surfaces.get(to_shade.surface);
             let Some(Shaded { primitive, kept, .. }) = shown.shaded else {
                 continue;
             };
             let Primitive { corners, paint } = primitive;
             let shader = Shader::new(context, corners, paint);
-            let nothing_above = kept == Premultiplied16::ONE;
             let pixels: usize = runs.iter().map(|run| run.len()).sum();
             values.resize(values.len().max(pixels), 0);
             let count = resolver.count();
             let mut whole = Fragments {
                 runs,
                 is_level: paint.is_level(context),
-                parts: fragments,
+                parts,
                 places,
                 count,
             };
-            let mut means = None;
+            let (mut means, nothing_above) = (None, kept == Premultiplied16::ONE);
             if let Whole::Put(block) = target
                 && nothing_above
             {
@@ -360,15 +355,12 @@ impl VisibilityPainter<'_> {
             let are_means = shading.find(whole, grid, &shader, means);
             let found = &mut shading.whole_sums;
             *samples_shaded += shader.evaluations(found.len() as u64 * u64::from(count), found.len());
-            if !nothing_above {
-                for sum in &mut *found {
-                    *sum = shown.over_shaded(*sum, kept, count);
-                }
+            if !are_means {
+                shown.over_each_shaded(found, kept, count);
             }
             match target {
                 Whole::Keep(kept) => *kept = found.first().copied().or(*kept),
                 Whole::Put(block) => {
-                    let values = &mut values[..found.len()];
                     if !are_means {
                         resolver.pixels(found, values);
                     }
@@ -381,7 +373,7 @@ impl VisibilityPainter<'_> {
                     *sum += channel;
                 }
             });
-            *samples_shaded += shader.evaluations(of_parts, fragments.len());
+            *samples_shaded += shader.evaluations(of_parts, parts.len());
         }
     }
 }

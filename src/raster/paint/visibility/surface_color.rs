@@ -112,6 +112,15 @@ impl SurfaceColor<'_> {
         sum.channels()
     }
 
+    /// [`SurfaceColor::over_shaded`] of each of these sums, which it becomes.
+    pub(crate) fn over_each_shaded(&self, sums: &mut [[u32; 4]], kept: u16, count: u32) {
+        if kept != Premultiplied16::ONE {
+            for sum in sums {
+                *sum = self.over_shaded(*sum, kept, count);
+            }
+        }
+    }
+
     /// What `count` samples show of which the primitive below has the sum `shaded`.
     #[inline]
     pub(in crate::raster) fn over_shaded(&self, shaded: [u32; 4], kept: u16, count: u32) -> [u32; 4] {

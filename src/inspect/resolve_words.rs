@@ -91,13 +91,17 @@ impl Explanation {
         self.resolve.space() == ResolveSpace::Linear && self.resolve.samples > 1
     }
 
-    /// A colour channel from the sum of its light to its byte.
+    /// A colour channel from its light, or the sum of it, to its byte.
     fn light_channel(&self, channel: usize) -> String {
         let Resolve {
             sums, samples, mean, ..
         } = &self.resolve;
         let (mean, alpha) = (mean[channel], self.resolve.mean[3]);
-        let mut text = format!("light {} / {samples} = {}", number(sums[channel]), number(mean));
+        let mut text = if self.averages_light() {
+            format!("light {} / {samples} = {}", number(sums[channel]), number(mean))
+        } else {
+            format!("light {}", number(mean))
+        };
         let straight = if alpha > 0.0 { mean * 255.0 / alpha } else { 0.0 };
         if self.resolved()[3] < 255 {
             let _ = write!(text, ", / alpha = {}", number(straight));
@@ -118,7 +122,7 @@ impl Explanation {
 
     /// A channel from its sum to its byte.
     fn channel(&self, channel: usize) -> String {
-        if channel < 3 && self.averages_light() {
+        if channel < 3 && self.resolve.space() == ResolveSpace::Linear {
             return self.light_channel(channel);
         }
         let Resolve {

@@ -50,6 +50,9 @@ const LENGTHS: [&str; 10] = [
     "font-size",
 ];
 
+/// Attributes that hold a part of one, which the course's reader does not know in percent.
+const PARTS: [&str; 3] = ["fill-opacity", "stroke-opacity", "stop-opacity"];
+
 /// The dialect as a setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DialectChoice {
@@ -221,7 +224,7 @@ impl Traits {
 
 /// Whether the root says how its shapes look, of which the course's reader knows nothing: sets of icons do.
 fn is_styled_root(root: Node<'_, '_>) -> bool {
-    let names = ["class", "color", "fill", "stroke", "stroke-width", "style"];
+    let names = ["class", "color", "fill", "stroke", "stroke-width", "style", "transform"];
     names.into_iter().any(|name| root.has_attribute(name))
 }
 
@@ -267,9 +270,24 @@ fn is_only_svg(node: Node<'_, '_>) -> bool {
         let length = text.trim().parse::<Length>();
         length.is_ok_and(|length| !matches!(length.unit, LengthUnit::None | LengthUnit::Px))
     };
+    let in_percent = |name: &str| node.attribute(name).is_some_and(|text| text.contains('%'));
     ONLY_SVG.iter().any(|name| node.has_attribute(*name))
+        || PARTS.into_iter().any(in_percent)
+        || scales_evenly(node)
         || LENGTHS.iter().any(|name| node.attribute(*name).is_some_and(has_unit))
         || is_drawing(node)
+}
+
+/// Whether the element is scaled by one number, which the course's reader takes for the width alone.
+fn scales_evenly(node: Node<'_, '_>) -> bool {
+    let transform = node.attribute("transform").unwrap_or("");
+    let mut steps = transform.split(')').filter_map(|step| step.split_once('('));
+    steps.any(|(name, numbers)| {
+        let name = name
+            .trim_start_matches(|c: char| c == ',' || c.is_whitespace())
+            .trim_end();
+        name == "scale" && numbers::all("transform", numbers).is_ok_and(|numbers| numbers.len() == 1)
+    })
 }
 
 /// Whether this is an image that is a drawing itself: the course's reader knows pictures of texels only.

@@ -187,8 +187,9 @@ fn find_nearest_of<const N: usize>(level: Level, plan: &Plan<'_>, side: u32, wor
         let pixels = work.lists[0].pixels;
         dispatch!(level, simd => nearest_means::means(simd, (plan, samples), mean, pixels, values));
         are_means = true;
+        work.lists[0].pixels = &[];
     }
-    for (list, sums) in work.by_list().skip(usize::from(are_means)) {
+    for (list, sums) in work.by_list() {
         dispatch!(level, simd => nearest_sums::sum(simd, plan, samples, list, sums));
     }
     Some(are_means)

@@ -107,27 +107,34 @@ fn is_there(database: &Database, family: &Family<'_>) -> bool {
 /// What text is set in that asks for nothing: usvg takes this for the name of a family.
 pub(super) const UNNAMED: &str = "serif";
 
-/// A family that a document asks for and the machine has not.
+/// What a document asks for and the machine has not.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Missing {
-    family: String,
-    /// What is taken instead.
-    instead: Option<String>,
+pub(super) enum Missing {
+    /// A family, and what is taken instead.
+    Family(String, Option<String>),
+    /// A bold or an inclined face of a family that is there.
+    Face(&'static str, String),
 }
 
 impl Missing {
     /// One line about it.
     pub(super) fn message(&self) -> Option<String> {
-        let family = crate::scene::report::quote(&self.family);
-        let instead = self.instead.as_deref()?;
-        Some(format!(
-            "there is no typeface {family}; {} is taken instead (--font adds more)",
-            crate::scene::report::quote(instead)
-        ))
+        let quote = crate::scene::report::quote;
+        Some(match self {
+            Self::Family(family, instead) => format!(
+                "there is no typeface {}; {} is taken instead (--font adds more)",
+                quote(family),
+                quote(instead.as_deref()?)
+            ),
+            Self::Face(kind, family) => format!(
+                "there is no {kind} face of {}; another one is taken instead (--font adds more)",
+                quote(family)
+            ),
+        })
     }
 }
 
-/// Chooses typefaces as usvg does, and tells of the families that are missing.
+/// Chooses typefaces as usvg does, and tells of the families and faces that are missing.
 pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontResolver<'a> {
     FontResolver {
         select_font: Box::new(move |font, database| {
@@ -141,15 +148,32 @@ pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontRes
                 if query(database, font, &theirs(family)).is_some() {
                     break;
                 }
-                tell(Missing {
-                    family: family.to_string().trim_matches('"').to_owned(),
-                    instead: found.and_then(|id| name(database, id)),
-                });
+                tell(Missing::Family(
+                    family.to_string().trim_matches('"').to_owned(),
+                    found.and_then(|id| name(database, id)),
+                ));
+            }
+            for kind in found.iter().flat_map(|id| lacking(database, font, *id)) {
+                tell(Missing::Face(
+                    kind,
+                    found.and_then(|id| name(database, id)).unwrap_or_default(),
+                ));
             }
             found
         }),
         select_fallback: FontResolver::default_fallback_selector(),
     }
+}
+
+/// What a document asks of a face that this one is not.
+fn lacking(database: &Database, font: &Font, id: ID) -> impl Iterator<Item = &'static str> + use<> {
+    let is_bold = |weight: u16| weight >= Weight::SEMIBOLD.0;
+    let face = database.face(id);
+    let bold = face.is_some_and(|face| is_bold(font.weight()) && !is_bold(face.weight.0));
+    let italic = face.is_some_and(|face| font.style() != FontStyle::Normal && face.style == Style::Normal);
+    [bold.then_some("bold"), italic.then_some("italic")]
+        .into_iter()
+        .flatten()
 }
 
 fn name(database: &Database, id: ID) -> Option<String> {

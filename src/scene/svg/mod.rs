@@ -16,6 +16,7 @@ mod elements;
 mod fonts;
 mod guarded;
 mod listener;
+mod mended;
 mod nonsense;
 mod paint;
 mod painter;

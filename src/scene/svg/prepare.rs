@@ -8,7 +8,7 @@ use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
 use super::values::WHITENS;
-use super::{nonsense, sheets, styles};
+use super::{mended, nonsense, sheets, styles};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
@@ -98,6 +98,9 @@ pub(super) fn prepare<'doc, L: Listener>(
         listener,
     };
     preparation.namespace(root);
+    if let Some(message) = mended::far_from_zero(root) {
+        preparation.listener.warn(root, message);
+    }
     preparation.tree(root)?;
     let Preparation {
         edits,
@@ -162,7 +165,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             }
             return Ok(None);
         }
-        let look = check::look(self.listener, node, heard && !self.is_whitened(node))?;
+        let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
+        let look = check::look(self.listener, node, is_told)?;
         let to_root = to_root * look.to_parent;
         if !is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
@@ -172,6 +176,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.identify(node);
         self.pixelate(node);
         self.hide_nonsense(node);
+        mended::trim_numbers(self.text, node, &mut self.edits);
+        mended::hide_missing_filter(node, &self.elements, &mut self.edits);
         match name {
             "image" => self.image(node, heard),
             "colortri" | "textri" => self.triangle(node)?,

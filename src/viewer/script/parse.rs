@@ -194,7 +194,7 @@ fn parse_step(text: &str) -> Result<Step, String> {
         "wheel" => wheel(rest).ok_or_else(|| form("CLICKS, or CLICKS X,Y")),
         "resize" => size(rest)
             .map(Step::Resize)
-            .ok_or_else(|| form("WxH in pixels, up to 16384 each")),
+            .ok_or_else(|| form("WxH in pixels, from 1 to 16384 each")),
         "wait" => wait(rest).ok_or_else(|| form("MILLISECONDS up to 60000, or nothing")),
         "shot" if rest.is_empty() => Err("a picture needs a name; write shot FILE.png".to_owned()),
         "shot" => Ok(Step::Shot(path(rest))),
@@ -258,7 +258,8 @@ fn wheel(text: &str) -> Option<Step> {
 
 fn size(text: &str) -> Option<[u32; 2]> {
     let (width, height) = text.split_once('x')?;
-    let side = |text: &str| text.trim().parse().ok().filter(|side| *side <= Framebuffer::MAX_SIDE);
+    let fits = |side: &u32| (1..=Framebuffer::MAX_SIDE).contains(side);
+    let side = |text: &str| text.trim().parse().ok().filter(fits);
     Some([side(width)?, side(height)?])
 }
 
@@ -329,6 +330,7 @@ mod tests {
             ("shot", 1, 1, "FILE.png"),
             ("shot \"x", 1, 1, "end the text"),
             ("resize 99999x1", 1, 1, "16384"),
+            ("resize 0x300", 1, 1, "from 1"),
             ("wait 99999999999999999999", 1, 1, "60000"),
             ("wheel nan", 1, 1, "CLICKS"),
         ] {

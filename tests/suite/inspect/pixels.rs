@@ -265,7 +265,7 @@ fn check_resolve(found: &Explanation, rules: Rules) {
             "sample by sample: {found:?}"
         );
     }
-    if linear && resolve.samples > 1 {
+    if linear {
         let lines = found.resolve_lines();
         let red = lines.iter().find(|line| line.starts_with("red")).unwrap();
         assert!(

@@ -333,6 +333,35 @@ fn course_concave_polygons_are_filled_exactly() {
 }
 
 #[test]
+fn auto_leaves_to_svg_what_the_course_reads_otherwise() {
+    const UNIT: &str = "<rect width='1' height='1'/>";
+    let with = |transform: &str| format!("<g transform='{transform}'>{UNIT}</g>");
+    for (root, body, expected) in [
+        ("", with("scale(.5)"), Dialect::Svg),
+        ("", with("translate(3 4) ,scale( 2 )"), Dialect::Svg),
+        ("", with("scale(2 2)"), Dialect::Course),
+        ("", with("translate(2)"), Dialect::Course),
+        (
+            "",
+            "<rect width='1' height='1' fill-opacity='40%'/>".to_owned(),
+            Dialect::Svg,
+        ),
+        (
+            "",
+            "<rect width='1' height='1' fill-opacity='.4'/>".to_owned(),
+            Dialect::Course,
+        ),
+        ("transform='translate(1 2)'", UNIT.to_owned(), Dialect::Svg),
+    ] {
+        let scene = read(
+            &svg(&format!("width='10' height='10' {root}"), &body),
+            DialectChoice::Auto,
+        );
+        assert_eq!(scene.dialect, expected, "<svg {root}>{body}");
+    }
+}
+
+#[test]
 fn auto_finds_the_dialect() {
     let size = "width='10' height='10'";
     for (attributes, body, expected) in [

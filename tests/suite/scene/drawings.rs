@@ -328,6 +328,13 @@ fn text_is_outlines_of_the_shipped_typefaces() {
         told[0].starts_with("2:1: there is no typeface No Such; Ubuntu is taken instead"),
         "{told:?}"
     );
+    let bold = svg_scene(
+        "<text y='50' font-family='sans-serif' font-weight='700'>Hi <tspan font-style='italic'>you</tspan></text>",
+    );
+    let told = lines(&bold);
+    assert_eq!(told.len(), 2, "each face once: {told:?}");
+    assert!(told[0].contains("no bold face of Ubuntu"), "{told:?}");
+    assert!(told[1].contains("no italic face of Ubuntu"), "{told:?}");
     let mono = svg_scene("<text y='50' font-family='Hack'>Hi</text>");
     assert!(lines(&mono).is_empty(), "it is shipped: {:?}", lines(&mono));
 }

@@ -274,6 +274,34 @@ fn svg_reports_what_it_does_not_draw() {
 }
 
 #[test]
+fn svg_numbers_may_stand_between_white_space() {
+    let plain = filled("<rect width='8' height='4' fill='red'/>");
+    for spaced in [
+        "<rect width='8 ' height=' 4' fill='red'/>",
+        "<rect width='\n8' height='4\t' opacity=' 1 ' fill='red'/>",
+        "<rect x=' 10 ' width=' 8 ' height=' 4 ' fill-opacity=' 100% ' fill='red'/>",
+    ] {
+        assert_eq!(filled(spaced), plain, "{spaced:?}");
+    }
+    let scene = svg_scene("<circle cx=' 20 ' cy='10' r=' 5 '/>");
+    assert_near(&bounds(&scene), &[15.0, 5.0, 25.0, 15.0], "a disc in its place");
+    assert_eq!(lines(&scene), [""; 0], "nothing is to be told");
+}
+
+#[test]
+fn svg_filters_that_are_not_there_hide_nothing() {
+    for missing in ["url(#zz)", " url('#zz') "] {
+        let body = format!("<rect width='8' height='4' fill='red' filter=\"{missing}\"/>");
+        assert_eq!(filled(&body), (32.0, RED), "{body}");
+        assert_eq!(lines(&svg_scene(&body)).len(), 1, "it is told: {body}");
+    }
+    // One without effects makes nothing of everything, as SVG wants it.
+    let empty = svg_scene("<filter id='f'/><rect width='8' height='4' filter='url(#f)'/>");
+    assert_eq!(kinds(&empty).len(), 0, "nothing is drawn");
+    assert_eq!(lines(&empty), [""; 0], "nor told");
+}
+
+#[test]
 fn svg_patterns_take_nothing_from_what_is_around_them() {
     // In the tile a layer that turns out to hold nothing is taken back.
     let scene = svg_scene(

@@ -67,6 +67,10 @@ impl Explanation {
             let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
             truth.cures.retain(|cure| cure.nearer >= best * cure.worth_a_word());
             truth.cures.truncate(MOST_CURES);
+            for cure in &mut truth.cures {
+                let is_other = cure.setting == Setting::Pattern && is_own(settings.pattern);
+                cure.samples = is_other.then_some(settings.sample_rate.samples());
+            }
         }
         Some(truth)
     }
@@ -112,6 +116,7 @@ impl Truth {
                 value,
                 color,
                 nearer,
+                samples: None,
             })
         });
         let tried: Vec<Cure> = tried.collect();

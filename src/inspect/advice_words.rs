@@ -40,7 +40,7 @@ impl Explanation {
     /// The reason, what to do and what it brings.
     fn hint(&self, cure: &Cure) -> String {
         let mut words = self.reason(cure).map_or(String::new(), |reason| reason + " ");
-        words += &cure.words(self.samples.len());
+        words += &cure.words();
         words
     }
 
@@ -271,8 +271,8 @@ impl Paint {
 }
 
 impl Cure {
-    /// What to set, the key that steps through the values, and what it brings to a pixel of so many samples.
-    fn words(&self, samples: usize) -> String {
+    /// What to set, the key that steps through the values, and what it brings.
+    fn words(&self) -> String {
         let value = &self.value;
         let what = match self.setting {
             Setting::Rules => format!("Rules {value}"),
@@ -294,10 +294,10 @@ impl Cure {
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
             Setting::Pattern => {
-                // How many is said, since patterns of files bring their own rate, which goes with them.
-                format!(
-                    "Pattern {value} with {samples} samples (key A in the window), which share neither columns nor rows"
-                )
+                let rate = self
+                    .samples
+                    .map_or(String::new(), |samples| format!(" with {samples} samples"));
+                format!("Pattern {value}{rate} (key A in the window), whose samples share neither columns nor rows")
             }
             Setting::PostProcess => format!("Post-process {value}"),
         };

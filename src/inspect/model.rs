@@ -139,6 +139,9 @@ pub struct Cure {
     pub color: [u8; 4],
     /// By how many levels it is nearer.
     pub nearer: f64,
+    /// How many samples it takes, where the pattern in use brings its own number, which goes with it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u32>,
 }
 
 /// The settings that are tried.

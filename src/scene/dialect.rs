@@ -273,21 +273,8 @@ fn is_only_svg(node: Node<'_, '_>) -> bool {
     let in_percent = |name: &str| node.attribute(name).is_some_and(|text| text.contains('%'));
     ONLY_SVG.iter().any(|name| node.has_attribute(*name))
         || PARTS.into_iter().any(in_percent)
-        || scales_evenly(node)
         || LENGTHS.iter().any(|name| node.attribute(*name).is_some_and(has_unit))
         || is_drawing(node)
-}
-
-/// Whether the element is scaled by one number, which the course's reader takes for the width alone.
-fn scales_evenly(node: Node<'_, '_>) -> bool {
-    let transform = node.attribute("transform").unwrap_or("");
-    let mut steps = transform.split(')').filter_map(|step| step.split_once('('));
-    steps.any(|(name, numbers)| {
-        let name = name
-            .trim_start_matches(|c: char| c == ',' || c.is_whitespace())
-            .trim_end();
-        name == "scale" && numbers::all("transform", numbers).is_ok_and(|numbers| numbers.len() == 1)
-    })
 }
 
 /// Whether this is an image that is a drawing itself: the course's reader knows pictures of texels only.

@@ -10,8 +10,10 @@ use crate::scene::error::Fault;
 use crate::scene::{SkippedKind, numbers};
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 2] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 4] = [
+    ("direction", &["ltr"]),
     ("filter", &["none"]),
+    ("font-variant", &["normal"]),
     ("vector-effect", &["none", "non-scaling-stroke"]),
 ];
 
@@ -50,6 +52,10 @@ pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: boo
             finite(listener, node, name, value)?;
             complaints.push((name, value.trim()));
         }
+        if name == "pathLength" && is_dashed(node) && heard {
+            let message = "pathLength has no effect: dashes are as long as they are written";
+            listener.warn(node, message.to_owned());
+        }
         if LENGTHS.contains(&name) {
             let largest = numbers::all(name, value).unwrap_or_default().into_iter();
             look.reach = largest.fold(look.reach, |reach, number| reach.max(f64::from(number).abs()));
@@ -76,6 +82,14 @@ pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: boo
         }
     }
     Ok(look)
+}
+
+/// Whether an element says itself that its outline is dashed.
+fn is_dashed(node: Node<'_, '_>) -> bool {
+    let style = node.attribute("style").unwrap_or("");
+    node.attribute("stroke-dasharray")
+        .is_some_and(|dashes| dashes.trim() != "none")
+        || style.contains("stroke-dasharray")
 }
 
 /// Whether a style gives a shape a length that it does not have without it.

@@ -36,6 +36,26 @@ const KEYWORDS: [&str; 16] = [
     "x-large", "xx-large", "smaller", "larger", "thin",
 ];
 
+/// The ways to blend that are drawn.
+const BLEND_MODES: [&str; 16] = [
+    "normal",
+    "multiply",
+    "screen",
+    "overlay",
+    "darken",
+    "lighten",
+    "color-dodge",
+    "color-burn",
+    "hard-light",
+    "soft-light",
+    "difference",
+    "exclusion",
+    "hue",
+    "saturation",
+    "color",
+    "luminosity",
+];
+
 fn kind(name: &str) -> Option<Kind> {
     Some(match name {
         "x" | "y" | "width" | "height" | "rx" | "ry" | "cx" | "cy" | "r" | "x1" | "y1" | "x2" | "y2" | "fx" | "fy"
@@ -54,7 +74,8 @@ fn kind(name: &str) -> Option<Kind> {
         "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
         "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),
         "visibility" => Kind::Words(&["visible", "hidden", "collapse"]),
-        "filter" | "vector-effect" => Kind::Words(&[]),
+        "filter" | "vector-effect" | "font-variant" | "direction" => Kind::Words(&[]),
+        "mix-blend-mode" => Kind::Words(&BLEND_MODES),
         "shape-rendering" => Kind::Words(&["auto", "geometricPrecision", "crispEdges", "optimizeSpeed"]),
         "image-rendering" => Kind::Words(&[
             "auto",

@@ -5,7 +5,9 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{View as SceneView, ViewTransform};
 use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
 use rasterscope::post::PostProcess;
-use rasterscope::raster::{Framebuffer, PixelCoverage, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
+use rasterscope::raster::{
+    CustomPattern, Framebuffer, PixelCoverage, ResolveFilter, SamplePattern, SampleRate, ShadingRate,
+};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
@@ -381,6 +383,34 @@ fn advice_knows_no_gap_that_a_third_one_covers() {
             .concat();
         assert_eq!(told.contains("leaves a gap"), is_gap, "{why}: {told}");
     }
+}
+
+#[test]
+fn advice_on_a_pattern_says_how_many_samples_go_with_it() {
+    // The bar lies between the columns of the cross, and crosses a fourth of the pixel.
+    let bar = r##"<svg width="8" height="8"><polygon points="4.1,0 4.35,0 4.35,8 4.1,8" fill="#FF0000"/></svg>"##;
+    let scene = read("bar.svg", bar);
+    let hints = |pattern: SamplePattern| {
+        let settings = RenderSettings {
+            sample_rate: rate(4),
+            pattern,
+            ..RenderSettings::default()
+        };
+        let found = advised(&scene, &settings, [8, 8], [4, 4]);
+        let cures = found.truth.as_ref().map_or(&[][..], |truth| &truth.cures);
+        let samples = cures.iter().filter(|cure| cure.setting == Setting::Pattern);
+        (
+            found.hints().concat(),
+            samples.map(|cure| cure.samples).collect::<Vec<_>>(),
+        )
+    };
+    let cross = CustomPattern::parse("cross:128/128x2+128/64+128/192").expect("a pattern");
+    let (told, samples) = hints(SamplePattern::Custom(cross));
+    assert!(told.contains("Pattern rotated with 4 samples (key A"), "{told}");
+    assert_eq!(samples, [Some(4)], "it is no pattern of its own rate");
+    let (told, samples) = hints(SamplePattern::Grid);
+    assert!(!told.contains("Pattern rotated with"), "the rate stays: {told}");
+    assert!(samples.iter().all(Option::is_none), "{samples:?}");
 }
 
 #[test]

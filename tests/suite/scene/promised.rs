@@ -85,7 +85,7 @@ const DRAWN: &[(&str, &str)] = &[
         "style sheets",
         "<style>.a { fill: red }</style><rect class='a' width='9' height='9'/>",
     ),
-    ("all units", "<rect width='50%' height='2mm'/>"),
+    ("all units of SVG 1.1", "<rect width='50%' height='2mm'/>"),
 ];
 
 /// Words of the table, and what is reported instead of being drawn.

@@ -289,6 +289,24 @@ fn svg_numbers_may_stand_between_white_space() {
 }
 
 #[test]
+fn svg_tells_what_it_passes_over() {
+    const RECT: &str = "<rect width='8' height='4' fill='red' ";
+    for (look, told) in [
+        ("style='mix-blend-mode: plus-lighter'", "plus-lighter"),
+        ("style='mix-blend-mode: multiply'", ""),
+        ("pathLength='10' stroke-dasharray='1'", "pathLength"),
+        ("pathLength='10'", ""),
+        ("style='font-variant: small-caps'", "font-variant"),
+        ("direction='rtl'", "direction"),
+        ("direction='ltr' font-variant='normal'", ""),
+    ] {
+        let found = lines(&svg_scene(&format!("{RECT}{look}/>")));
+        assert_eq!(found.len(), usize::from(!told.is_empty()), "{look}: {found:?}");
+        assert!(found.iter().all(|line| line.contains(told)), "{look}: {found:?}");
+    }
+}
+
+#[test]
 fn svg_filters_that_are_not_there_hide_nothing() {
     for missing in ["url(#zz)", " url('#zz') "] {
         let body = format!("<rect width='8' height='4' fill='red' filter=\"{missing}\"/>");

@@ -26,6 +26,7 @@ pub struct DisplayList<'a> {
     pub(in crate::raster) chunks: Vec<Chunk>,
     pub(in crate::raster) sources: PaintSources<'a>,
     pub(in crate::raster) kinds: Kinds,
+    background: Premultiplied16,
 }
 
 /// One group of tile rows on its way to the frame.
@@ -53,14 +54,15 @@ impl<'a> DisplayList<'a> {
             outlines += chunk.outlines.len();
         }
         let rules = settings.sampling.rules;
-        let ground = Premultiplied16::from_straight(settings.background, rules);
-        let kinds = Kinds::of(&chunks, &sources, rules, ground);
+        let background = Premultiplied16::from_straight(settings.background, rules);
+        let kinds = Kinds::of(&chunks, &sources, rules, background);
         Self {
             context,
             settings,
             chunks,
             sources,
             kinds,
+            background,
         }
     }
 
@@ -74,8 +76,13 @@ impl<'a> DisplayList<'a> {
         self.chunks.iter().map(|chunk| chunk.commands.len()).sum()
     }
 
+    /// Whether every tile is painted straight into the frame.
+    pub(in crate::raster) fn is_direct(&self) -> bool {
+        self.kinds.are_direct(&self.context, self.settings.filter)
+    }
+
     pub(in crate::raster) fn background(&self) -> Premultiplied16 {
-        Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
+        self.background
     }
 
     /// Counts what each tile will hold.

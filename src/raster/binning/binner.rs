@@ -172,6 +172,8 @@ impl<'a> Binner<'a> {
     fn everywhere(&self, sources: &PaintSources<'_>, mut visit: impl FnMut(usize, TileCommand)) {
         let mut depth = self.chunk.layers_open.len();
         let mut tiles = OutlineTiles::default();
+        // Each lies in one tile.
+        let whole_blocks = self.pixels.overlap == 0 && self.context.tiles.sides_log2().iter().all(|side| *side >= 3);
         for (i, command) in self.chunk.commands.iter().enumerate() {
             match *command {
                 DrawCommand::Samples(index) => {
@@ -187,9 +189,12 @@ impl<'a> Binner<'a> {
                 DrawCommand::Hairline(index) => {
                     let line = &self.chunk.hairlines[index as usize];
                     let entry = TileCommand::pixels(i, line.color);
-                    line.blocks(self.context.size, |pixels| {
-                        self.stamp(self.pixels, pixels, entry, &mut visit);
-                    });
+                    let size = self.context.size;
+                    if whole_blocks {
+                        line.blocks(size, |block| self.block(block, entry, &mut visit));
+                    } else {
+                        line.blocks(size, |pixels| self.stamp(self.pixels, pixels, entry, &mut visit));
+                    }
                 }
                 DrawCommand::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
@@ -232,6 +237,18 @@ impl<'a> Binner<'a> {
     #[inline]
     pub(super) fn tile(&self, column: i32, row: i32) -> usize {
         to_index(row - self.rows.start) * self.context.tiles.columns as usize + to_index(column)
+    }
+
+    /// A stamp of pixels whose column and row are multiples of eight, where tiles are of such blocks.
+    #[inline]
+    fn block(&self, block: CoverageMask, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
+        let [width, height] = self.context.tiles.sides_log2();
+        let row = block.row >> height;
+        if self.rows.start <= row && row < self.rows.end {
+            let inside = |at: i32, side: u32| u16::try_from(at & ((1 << side) - 1)).unwrap_or(0);
+            let at = [inside(block.column, width), inside(block.row, height)];
+            visit(self.tile(block.column >> width, row), entry.with_bits(at, block.mask));
+        }
     }
 
     /// A stamp in each tile that holds any of its bits.

@@ -14,7 +14,7 @@ use crate::raster::shading::Paint;
 pub(crate) struct TileCommand {
     /// Flags, and below them the index of the command in its chunk.
     head: u32,
-    /// Column and row of a stamp's lowest bit, counted from the tile's first: samples or pixels.
+    /// Column and row of a stamp's first bit, counted from the tile's first: samples or pixels.
     at: [u16; 2],
     /// The bits of a stamp, or the index of a triangle or outline, or of a layer mark.
     bits: u64,
@@ -110,7 +110,7 @@ impl TileCommand {
         u32::try_from(command).unwrap_or(0) & Self::MAX_COMMAND
     }
 
-    /// The same stamp with its bits, of which the lowest lies at column `x` and row `y` of the tile.
+    /// The same stamp with its bits, of which the first, set or not, lies at column `x` and row `y` of the tile.
     #[inline]
     pub(crate) fn with_bits(self, [x, y]: [u16; 2], bits: u64) -> Self {
         Self {

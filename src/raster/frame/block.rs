@@ -9,7 +9,7 @@ use crate::raster::span::{Span, SpanRect};
 use crate::simd;
 
 /// So many pixels of a stamp are set one by one.
-const FEW: usize = 6;
+const FEW: u32 = 16;
 
 /// A rectangle of a frame's pixels.
 #[derive(Debug)]
@@ -20,12 +20,38 @@ pub(crate) struct PixelBlock<'p> {
     pixels: &'p mut [u32],
     /// Distance between two rows.
     stride: usize,
+    /// What all of its pixels are, as long as nothing was painted.
+    shown: Option<u32>,
+}
+
+/// Gives all pixels one value.
+pub(crate) fn fill(pixels: &mut [u32], pixel: u32) {
+    const WHITE: u32 = u32::MAX;
+    if pixel == WHITE {
+        // Of equal bytes, which processors write without reading what they overwrite.
+        pixels.fill(WHITE);
+        return;
+    }
+    dispatch!(simd::level(), simd => simd.vectorize(
+        #[inline(always)]
+        || pixels.fill(pixel),
+    ));
 }
 
 impl<'p> PixelBlock<'p> {
     /// The rectangle `rect` of a frame; `pixels` begins with its first pixel, and its rows lie `stride` apart.
     pub(crate) fn new(rect: SpanRect, pixels: &'p mut [u32], stride: usize) -> Self {
-        Self { rect, pixels, stride }
+        Self {
+            rect,
+            pixels,
+            stride,
+            shown: None,
+        }
+    }
+
+    /// The same, all pixels of which are `shown` already.
+    pub(crate) fn showing(self, shown: Option<u32>) -> Self {
+        Self { shown, ..self }
     }
 
     /// The rectangle `rect` of a frame; `pixels` are rows of the frame, the rectangle's first one and more, and `stride`
@@ -68,13 +94,13 @@ impl<'p> PixelBlock<'p> {
         let place = |index: i32| usize::try_from(index).unwrap_or(0);
         let origin = place(stamp.row) * self.stride + place(stamp.column);
         // Most stamps have a few bits, for which runs would be more work.
-        for _ in 0..FEW {
-            if stamp.mask == 0 {
-                return;
+        if stamp.mask.count_ones() <= FEW {
+            while stamp.mask != 0 {
+                let bit = stamp.mask.trailing_zeros() as usize;
+                self.pixels[origin + bit / 8 * self.stride + bit % 8] = pixel;
+                stamp.mask &= stamp.mask - 1;
             }
-            let bit = stamp.mask.trailing_zeros() as usize;
-            self.pixels[origin + bit / 8 * self.stride + bit % 8] = pixel;
-            stamp.mask &= stamp.mask - 1;
+            return;
         }
         let SpanRect { x, y } = self.rect;
         let stamp = stamp.moved(x.start, y.start);
@@ -90,8 +116,11 @@ impl<'p> PixelBlock<'p> {
         }
     }
 
-    /// Gives all pixels one value.
+    /// Gives all pixels one value, before anything else is painted.
     pub(crate) fn fill(&mut self, pixel: u32) {
+        if self.shown.take() == Some(pixel) {
+            return;
+        }
         dispatch!(simd::level(), simd => simd.vectorize(
             #[inline(always)]
             || {

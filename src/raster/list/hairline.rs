@@ -22,11 +22,16 @@ pub(crate) struct Hairline {
     pub(crate) color: Premultiplied16,
 }
 
-/// Gathers pixels that come one after the other into blocks of eight by eight.
+/// Steps along a line, from its left end on.
 #[derive(Debug)]
-struct Gatherer<F: FnMut(CoverageMask)> {
-    block: CoverageMask,
-    emit: F,
+struct Walk<'a> {
+    line: &'a Hairline,
+    at: [f32; 2],
+    step: [f32; 2],
+    /// Where `x` is beyond the line.
+    end: f32,
+    /// How far `y` gets.
+    height: f32,
 }
 
 impl Hairline {
@@ -58,10 +63,42 @@ impl Hairline {
         truncated - i32::from(truncated as f32 > coordinate) + self.margin
     }
 
-    /// Calls `visit` with each pixel `[column, row]` of the line that lies in the `size` that is painted.
+    /// Whether every step of the line lies in the `size` that is painted.
+    fn is_inside(&self, size: [u32; 2]) -> bool {
+        let least = -self.margin as f32;
+        let [right, bottom] = size.map(|pixels| pixels as f32 + least);
+        let ([left, from], [last, to]) = (self.from, self.to);
+        // Steps go up to a pixel beyond the ends, and rounding moves them by far less.
+        left >= least && last < right - 1.0 && from.min(to) >= least + 1.0 && from.max(to) < bottom - 1.0
+    }
+
+    /// Calls `visit` with the pixels of the line that lie in the `size` that is painted, up to eight by eight of them at once:
+    /// column and row of each block are multiples of eight.
     #[inline]
-    fn trace(&self, size: [u32; 2], mut visit: impl FnMut(i32, i32)) {
-        let Self { from, to, .. } = *self;
+    pub(crate) fn blocks(&self, size: [u32; 2], mut visit: impl FnMut(CoverageMask)) {
+        let mut walk = Walk::new(self);
+        let inside = self.is_inside(size);
+        let frame = size.map(|pixels| pixels as f32 - self.margin as f32);
+        loop {
+            let block = if inside {
+                walk.block(|_, _| true)
+            } else {
+                let least = -self.margin as f32;
+                walk.block(|x, y| x >= least && x < frame[0] && y >= least && y < frame[1])
+            };
+            if block.mask == 0 {
+                return;
+            }
+            visit(block);
+        }
+    }
+}
+
+impl<'a> Walk<'a> {
+    /// At the line's left end.
+    #[inline]
+    fn new(line: &'a Hairline) -> Self {
+        let Hairline { from, to, .. } = *line;
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let slope = dy / dx;
         let step = if slope.abs() <= 1.0 {
@@ -71,52 +108,38 @@ impl Hairline {
         } else {
             [1.0 / slope.abs(), slope.signum()]
         };
-        let least = -self.margin as f32;
-        let frame = size.map(|pixels| pixels as f32 + least);
-        let (last, height) = (to[0].floor(), dy.abs());
-        let [mut x, mut y] = from;
-        // Before its whole number exceeds `last`, `x` exceeds it by one.
-        while x < last + 1.0 && (y - from[1]).abs() <= height {
-            if x >= least && x < frame[0] && y >= least && y < frame[1] {
-                visit(self.cell(x), self.cell(y));
+        Self {
+            line,
+            at: from,
+            step,
+            // Before its whole number exceeds that of the last, `x` exceeds it by one.
+            end: to[0].floor() + 1.0,
+            height: dy.abs(),
+        }
+    }
+
+    /// The next pixels that lie in one block of eight by eight, of the steps that `is_painted`; none at the line's end. No pixel
+    /// comes twice: each step goes on by a whole one along the longer axis.
+    #[inline]
+    fn block(&mut self, is_painted: impl Fn(f32, f32) -> bool) -> CoverageMask {
+        let mut block = CoverageMask::default();
+        let [mut x, mut y] = self.at;
+        while x < self.end && (y - self.line.from[1]).abs() <= self.height {
+            if is_painted(x, y) {
+                let (column, row) = (self.line.cell(x), self.line.cell(y));
+                let corner = (column & -SMALL, row & -SMALL);
+                if block.mask == 0 {
+                    (block.column, block.row) = corner;
+                } else if (block.column, block.row) != corner {
+                    break;
+                }
+                block.mask |= 1 << (SMALL * (row - corner.1) + column - corner.0);
             }
-            x += step[0];
-            y += step[1];
+            x += self.step[0];
+            y += self.step[1];
         }
-    }
-
-    /// Calls `visit` with the pixels of the line in a frame of `size`, up to eight by eight of them at once.
-    #[inline]
-    pub(crate) fn blocks(&self, size: [u32; 2], visit: impl FnMut(CoverageMask)) {
-        let mut gatherer = Gatherer {
-            block: CoverageMask::default(),
-            emit: visit,
-        };
-        self.trace(size, |x, y| gatherer.add(x, y));
-        gatherer.finish();
-    }
-}
-
-impl<F: FnMut(CoverageMask)> Gatherer<F> {
-    #[inline]
-    fn add(&mut self, x: i32, y: i32) {
-        let (column, row) = (x & -SMALL, y & -SMALL);
-        let bit = 1 << (SMALL * (y - row) + x - column);
-        // A pixel that a line visits twice is painted twice.
-        if self.block.column != column || self.block.row != row || self.block.mask & bit != 0 {
-            self.finish();
-            self.block.column = column;
-            self.block.row = row;
-        }
-        self.block.mask |= bit;
-    }
-
-    #[inline]
-    fn finish(&mut self) {
-        if self.block.mask != 0 {
-            (self.emit)(self.block);
-        }
-        self.block.mask = 0;
+        self.at = [x, y];
+        block
     }
 }
 
@@ -183,12 +206,29 @@ mod tests {
         Hairline::new(ends, size, 0, Premultiplied16::TRANSPARENT)
     }
 
-    fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[i32; 2]> {
+    /// The pixels of a line step by step, each of which is looked at by itself.
+    fn trace(line: &Hairline, size: [u32; 2]) -> Vec<[i32; 2]> {
+        let Walk {
+            at: [mut x, mut y],
+            step,
+            end,
+            height,
+            ..
+        } = Walk::new(line);
+        let inside = |at: f32, side: u32| (0.0..side as f32).contains(&at);
         let mut pixels = Vec::new();
-        if let Some(line) = line(from, to, [8, 6]) {
-            line.trace([8, 6], |x, y| pixels.push([x, y]));
+        while x < end && (y - line.from[1]).abs() <= height {
+            if inside(x, size[0]) && inside(y, size[1]) {
+                pixels.push([line.cell(x), line.cell(y)]);
+            }
+            x += step[0];
+            y += step[1];
         }
         pixels
+    }
+
+    fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[i32; 2]> {
+        line(from, to, [8, 6]).map_or_else(Vec::new, |line| trace(&line, [8, 6]))
     }
 
     #[test]
@@ -202,8 +242,7 @@ mod tests {
             let Some(line) = line(point()?, point()?, SIZE) else {
                 return Ok(());
             };
-            let (mut expected, mut found) = (Vec::new(), Vec::new());
-            line.trace(SIZE, |x, y| expected.push([x, y]));
+            let (mut expected, mut found) = (trace(&line, SIZE), Vec::new());
             let mut blocks = 0;
             line.blocks(SIZE, |block| {
                 blocks += 1;

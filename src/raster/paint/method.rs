@@ -98,6 +98,13 @@ impl Kinds {
         }
     }
 
+    /// Whether every tile is painted by [`Method::Direct`].
+    pub(in crate::raster) fn are_direct(self, context: &ListContext, filter: SizedFilter) -> bool {
+        let plain = filter.is_plain() && context.is_grid() && !context.coverage.is_exact();
+        let once = context.shading != ShadingRate::Centroid || self.flat;
+        plain && once && context.rate == SampleRate::ONE && self.opaque
+    }
+
     /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are weighted by `filter` and
     /// averaged in `space`.
     pub(in crate::raster) fn method<'c, I: Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone>(

@@ -157,6 +157,8 @@ struct Traits {
     foreign: bool,
     /// It uses more of SVG than lines, polygons and round shapes: nobody writes that for the course's reader.
     rich: bool,
+    /// It has a `style`, where rects without a size are leftovers.
+    styled: bool,
     /// It has something that the course's reader draws.
     drawn: bool,
     /// It has strokes, a `viewBox` and the like, which mean something else to each reader.
@@ -172,7 +174,7 @@ impl Traits {
             sized: has_number(root, "width") && has_number(root, "height"),
             measured: begins_with_number(root, "width") && begins_with_number(root, "height"),
             differs: has_view_box(root),
-            foreign: is_styled_root(root),
+            foreign: is_styled_root(root) || is_scaled(root),
             ..Self::default()
         };
         let mut open = vec![root.children()];
@@ -201,6 +203,7 @@ impl Traits {
         // The course's reader stretches pictures, SVG keeps their proportions.
         let is_picture = name == "image";
         self.foreign |= !is_known || is_picture || is_styled_as_svg(node) || is_only_svg(node);
+        self.styled |= node.has_attribute("style");
         self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
         self.drawn |= is_known && name != "g";
         self.differs |= !is_known || is_styled_as_svg(node) || course::is_read_otherwise(node);
@@ -208,9 +211,10 @@ impl Traits {
 
     /// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
     /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, no picture, no attribute
-    /// or unit of which the course's reader knows nothing, and a size in plain numbers.
+    /// or unit of which the course's reader knows nothing, no paint for a whole group, and a size in plain numbers that is that
+    /// of the `viewBox`, too.
     fn dialect(self) -> Dialect {
-        if self.own || (self.points && self.measured && !self.rich) || (self.sized && !self.foreign) {
+        if self.own || (self.points && self.measured && !self.rich && !self.styled) || (self.sized && !self.foreign) {
             Dialect::Course
         } else {
             Dialect::Svg
@@ -241,6 +245,22 @@ fn has_view_box(root: Node<'_, '_>) -> bool {
     let plain = [Some(0.0), Some(0.0), number("width"), number("height")];
     let found = numbers::all("viewBox", text).unwrap_or_default();
     found.into_iter().map(Some).ne(plain)
+}
+
+/// Whether shapes are shown larger or smaller than they are written, of which the course's reader knows nothing. Exporters that
+/// give a size of one pixel mean the `viewBox` as the size.
+fn is_scaled(root: Node<'_, '_>) -> bool {
+    let found = numbers::all("viewBox", root.attribute("viewBox").unwrap_or("")).unwrap_or_default();
+    let number = |name| {
+        numbers::leading(name, root.attribute(name).unwrap_or(""))
+            .ok()
+            .flatten()
+    };
+    let side = |at: usize| found.get(at).copied().filter(|side| *side > 0.0);
+    match (number("width").zip(number("height")), side(2).zip(side(3))) {
+        (Some(size), Some(sides)) => size.0 > 1.0 && size.1 > 1.0 && size != sides,
+        _ => false,
+    }
 }
 
 /// Whether the course's reader finds a number above zero in the attribute.
@@ -274,6 +294,8 @@ fn is_only_svg(node: Node<'_, '_>) -> bool {
     ONLY_SVG.iter().any(|name| node.has_attribute(*name))
         || PARTS.into_iter().any(in_percent)
         || LENGTHS.iter().any(|name| node.attribute(*name).is_some_and(has_unit))
+        // To the course's reader each shape has its own paint.
+        || node.tag_name().name() == "g" && ["fill", "stroke"].into_iter().any(|paint| node.has_attribute(paint))
         || is_drawing(node)
 }
 

@@ -8,6 +8,7 @@ use std::io::Read as _;
 
 use roxmltree::{Document, Error, ParsingOptions};
 
+use super::declarations::mended;
 use super::error::Fault;
 use super::report::shorten;
 use super::substitutes::substituted;
@@ -216,7 +217,8 @@ impl<'doc> Source<'doc> {
             }
             _ => (Cow::Borrowed(original), (0, 0)),
         };
-        let text = match substituted(&text) {
+        let plain = mended(substituted(&text));
+        let text = match plain {
             Cow::Owned(plain) => Cow::Owned(plain),
             Cow::Borrowed(_) => text,
         };

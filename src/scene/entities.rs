@@ -6,8 +6,11 @@
 use std::collections::HashMap;
 
 use super::Problem;
+use super::SourceLocation;
 use super::error::Fault;
 
+/// What a declaration begins with.
+const DECLARATION: &str = "<!ENTITY";
 /// Most bytes that all references of a document may expand to.
 const MAX_EXPANSION: usize = 4 << 20;
 /// Most declarations.
@@ -52,12 +55,13 @@ fn expansion(text: &str, sizes: &HashMap<&str, usize>) -> usize {
 /// Names and values of the general entities that the document declares.
 fn declarations(text: &str) -> Result<Vec<(&str, &str)>, Fault> {
     let mut found = Vec::new();
-    for after in text.split("<!ENTITY").skip(1) {
+    for after in text.split(DECLARATION).skip(1) {
         let Some((name, value)) = declaration(after) else {
             continue;
         };
         if value.contains('<') {
-            return Err(Problem::Xml("an entity holds markup".to_owned()).nowhere());
+            let end = after.as_ptr().addr() - text.as_ptr().addr() - DECLARATION.len();
+            return Err(Problem::EntityMarkup(name.to_owned()).at(place_of(&text[..end])));
         }
         found.push((name, value));
         if found.len() > MAX_DECLARATIONS {
@@ -69,6 +73,16 @@ fn declarations(text: &str) -> Result<Vec<(&str, &str)>, Fault> {
         }
     }
     Ok(found)
+}
+
+/// The place behind some text.
+fn place_of(before: &str) -> SourceLocation {
+    let number = |count: usize| u32::try_from(count + 1).unwrap_or(u32::MAX);
+    let last = before.rsplit('\n').next().unwrap_or("");
+    SourceLocation {
+        line: number(before.matches('\n').count()),
+        column: number(last.chars().count()),
+    }
 }
 
 /// Name and value of one declaration, of which `text` is what follows `<!ENTITY`.
@@ -99,7 +113,11 @@ mod tests {
         assert!(check(&format!("{nested}&a9;")).is_err(), "billion laughs");
         let flat = format!("<!ENTITY a '{}'>{}", "x".repeat(10_000), "&a;".repeat(10_000));
         assert!(check(&flat).is_err(), "quadratic blow-up");
-        assert!(check("<!ENTITY a '<svg/>'>").is_err(), "markup");
+        let markup = check("<!DOCTYPE svg [\n <!ENTITY a '<svg/>'>").expect_err("markup");
+        assert!(
+            format!("{markup:?}").contains("line: 2, column: 2"),
+            "with its place: {markup:?}"
+        );
         assert!(
             check(&"<!ENTITY a ''>".repeat(MAX_DECLARATIONS + 1)).is_err(),
             "declarations"

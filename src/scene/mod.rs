@@ -9,6 +9,7 @@ mod course;
 mod course_values;
 mod css_colors;
 mod cut_off;
+mod declarations;
 mod dialect;
 mod digest;
 mod document;

@@ -148,19 +148,19 @@ fn is_nested(text: &str) -> bool {
 
 /// Where in a document styles stand.
 #[derive(Debug, Default)]
-struct Markup {
+pub(super) struct Markup {
     /// Start tags, the root's first.
     tags: Vec<Range<usize>>,
     /// Values of attributes `style`.
-    styles: Vec<Range<usize>>,
+    pub(super) styles: Vec<Range<usize>>,
     /// Contents of elements `style`.
-    sheets: Vec<Range<usize>>,
+    pub(super) sheets: Vec<Range<usize>>,
     /// Elements whose style may have custom properties.
     scopes: Vec<Scope>,
 }
 
 impl Markup {
-    fn of(text: &str) -> Self {
+    pub(super) fn of(text: &str) -> Self {
         let mut found = Self::default();
         let mut at = 0;
         // Which scope each open element is, if it is one.

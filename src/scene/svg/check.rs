@@ -4,18 +4,11 @@
 use glam::DAffine2;
 use roxmltree::Node;
 
+use super::cascade::Styled;
 use super::listener::Listener;
 use super::{nonsense, values};
 use crate::scene::error::Fault;
 use crate::scene::{SkippedKind, numbers};
-
-/// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 4] = [
-    ("direction", &["ltr"]),
-    ("filter", &["none"]),
-    ("font-variant", &["normal"]),
-    ("vector-effect", &["none", "non-scaling-stroke"]),
-];
 
 /// Attributes that hold coordinates and lengths.
 const LENGTHS: [&str; 14] = [
@@ -38,7 +31,14 @@ pub(super) struct Look {
 }
 
 /// Looks at an element's attributes and style; complains unless nobody shall hear it.
-pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: bool) -> Result<Look, Fault> {
+///
+/// `styled` is what its styles say beside that.
+pub(super) fn look<L: Listener>(
+    listener: &mut L,
+    node: Node<'_, '_>,
+    styled: &Styled<'_>,
+    heard: bool,
+) -> Result<Look, Fault> {
     let mut look = Look {
         displayed: true,
         to_parent: DAffine2::IDENTITY,
@@ -67,15 +67,26 @@ pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: boo
         if values::is_numeric(declaration.name) {
             finite(listener, node, "style", declaration.value)?;
         }
-        complaints.push((declaration.name, declaration.value));
-        if heard && is_geometry_in_vain(node, &declaration) {
+        let is_moved = declaration.name == "transform" && styled.transform.is_some();
+        if heard && !styled.has_length(declaration.name) && is_geometry_in_vain(node, &declaration) {
             let message = format!(
                 "{} has no effect in a style; write it as an attribute",
                 declaration.name
             );
             listener.warn(node, message);
+        } else if !is_moved {
+            complaints.push((declaration.name, declaration.value));
         }
     }
+    if let Some(transform) = &styled.transform {
+        declared(&mut look, "transform", transform);
+    }
+    complaints.extend(
+        styled
+            .in_vain
+            .iter()
+            .map(|declaration| (declaration.name, declaration.value)),
+    );
     if heard && look.displayed {
         for (name, value) in complaints {
             complain(listener, node, name, value);
@@ -124,10 +135,8 @@ fn finite<L: Listener>(listener: &L, node: Node<'_, '_>, name: &str, value: &str
 }
 
 fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value: &str) {
-    if let Some((name, harmless)) = WITHOUT_EFFECT.iter().find(|(property, _)| *property == name) {
-        if !harmless.contains(&value) && value != "inherit" {
-            listener.skip(SkippedKind::Attribute, name, node);
-        }
+    if values::is_without_effect(name, value) {
+        listener.skip(SkippedKind::Attribute, name, node);
         return;
     }
     if values::is_understood(name, value) {

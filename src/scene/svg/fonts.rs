@@ -144,10 +144,10 @@ pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontRes
                 .find_map(|family| query(database, font, &theirs(family)));
             let found = found.or_else(|| query(database, font, &Family::Serif));
             let named = |family: &&FontFamily| matches!(family, FontFamily::Named(_));
-            for family in font.families().iter().filter(named) {
-                if query(database, font, &theirs(family)).is_some() {
-                    break;
-                }
+            let is_there = |family: &&FontFamily| query(database, font, &theirs(family)).is_some();
+            // What stands behind one that is there is not asked for.
+            let missing = font.families().iter().take_while(|family| !is_there(family));
+            for family in missing.filter(named) {
                 tell(Missing::Family(
                     family.to_string().trim_matches('"').to_owned(),
                     found.and_then(|id| name(database, id)),

@@ -2,6 +2,7 @@
 
 use roxmltree::Node;
 
+use super::cascade::{Styled, is_missing};
 use super::elements::Elements;
 use super::values;
 use crate::scene::edits::Edits;
@@ -11,8 +12,10 @@ use crate::scene::numbers;
 const SPACE: [char; 4] = [' ', '\t', '\n', '\r'];
 
 /// Takes the white space around the numbers of an element's attributes out of `text`: usvg takes other values for them, or none.
-pub(super) fn trim_numbers(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
-    for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+/// `styled` says which have others from styles.
+pub(super) fn trim_numbers(text: &str, node: Node<'_, '_>, styled: &Styled<'_>, edits: &mut Edits) {
+    let attributes = node.attributes().filter(|attribute| attribute.namespace().is_none());
+    for attribute in attributes.filter(|attribute| !styled.has_length(attribute.name())) {
         let name = attribute.name();
         let range = attribute.range_value();
         let raw = text.get(range.clone()).unwrap_or("");
@@ -23,31 +26,36 @@ pub(super) fn trim_numbers(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
     }
 }
 
-/// Takes an element's filter out of the text where no element has the id that it refers to: such a filter is none, and usvg would
-/// draw nothing.
-pub(super) fn hide_missing_filter(node: Node<'_, '_>, elements: &Elements<'_>, edits: &mut Edits) {
-    let filter = node.attributes().find(|attribute| attribute.name() == "filter");
-    let refers = |value: &str| {
-        let id = value.trim().strip_prefix("url(")?.strip_suffix(')')?;
-        Some(id.trim().trim_matches(['"', '\'']).strip_prefix('#')?.to_owned())
+/// Takes an element's filter out of the text where no filter has the id that it refers to: such a filter is none, and usvg would
+/// draw nothing. Quotes around an id go as well, for which usvg passes over filters. Styles are read elsewhere.
+pub(super) fn mend_filter(node: Node<'_, '_>, elements: &Elements<'_>, edits: &mut Edits) {
+    let Some(filter) = node.attributes().find(|attribute| attribute.name() == "filter") else {
+        return;
     };
-    if let Some(filter) = filter
-        && refers(filter.value()).is_some_and(|id| elements.own(&id).is_none())
-    {
+    let value = filter.value();
+    if is_missing(value, elements) {
         edits.replace(filter.range(), String::new());
+    } else if let Some(id) = values::reference(value).filter(|_| value.contains(['"', '\''])) {
+        edits.replace(filter.range_value(), format!("url(#{id})"));
     }
 }
 
 /// Whether an element shows nothing because it has a filter without effects, as SVG wants it.
 pub(super) fn is_filtered_away(node: Node<'_, '_>, elements: &Elements<'_>) -> bool {
-    let filter = node.attribute("filter").unwrap_or("").trim();
-    let id = filter.strip_prefix("url(#").and_then(|id| id.strip_suffix(')'));
+    let id = node.attribute("filter").and_then(values::reference);
     let found = id.and_then(|id| elements.own(id));
     found.is_some_and(|filter| {
         filter.has_tag_name("filter")
             && !filter.has_attribute("href")
             && !filter.children().any(|effect| effect.is_element())
     })
+}
+
+/// What is to be said of a document that refers to a style sheet outside, as XML does.
+pub(super) fn style_elsewhere(root: Node<'_, '_>) -> Option<&'static str> {
+    let mut instructions = root.document().root().children().filter_map(|node| node.pi());
+    let is_sheet = instructions.any(|instruction| instruction.target == "xml-stylesheet");
+    is_sheet.then_some("<?xml-stylesheet?> has no effect; other style sheets are not fetched: put it into a <style>")
 }
 
 /// What is to be said of a root whose coordinates lie so far from 0 that 32-bit floats, in which usvg counts, tell neighbouring

@@ -9,6 +9,7 @@
 //!
 //! What is not drawn is reported.
 
+mod cascade;
 mod check;
 mod circles;
 mod clip;
@@ -28,6 +29,7 @@ mod server;
 mod shapes;
 mod sheets;
 mod styles;
+mod transforms;
 mod values;
 
 use std::rc::Rc;

@@ -4,11 +4,12 @@
 use glam::{DAffine2, DVec2};
 use roxmltree::{Attribute, Node};
 
+use super::cascade::Cascade;
 use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
-use super::values::WHITENS;
-use super::{mended, nonsense, sheets, styles};
+use super::values::{self, WHITENS};
+use super::{cascade, mended, nonsense, sheets, styles};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
@@ -58,6 +59,9 @@ const UNDERSTOOD: [&str; 31] = [
     "texture",
 ];
 
+/// Elements that no reader draws.
+const NEVER_DRAWN: [&str; 2] = ["cursor", "view"];
+
 /// The namespace of SVG.
 const SVG: &str = "http://www.w3.org/2000/svg";
 
@@ -79,6 +83,7 @@ struct Preparation<'a, 'doc, L> {
     elements: Elements<'doc>,
     images: Vec<Node<'doc, 'doc>>,
     letters: Option<Node<'doc, 'doc>>,
+    cascade: Cascade<'doc>,
     listener: &'a mut L,
 }
 
@@ -95,8 +100,12 @@ pub(super) fn prepare<'doc, L: Listener>(
         elements: Elements::below(root),
         images: Vec::new(),
         letters: None,
+        cascade: Cascade::below(root),
         listener,
     };
+    if let Some(message) = mended::style_elsewhere(root) {
+        preparation.listener.warn(root, message.to_owned());
+    }
     preparation.namespace(root);
     if let Some(message) = mended::far_from_zero(root) {
         preparation.listener.warn(root, message);
@@ -160,13 +169,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
                 .parent_element()
                 .is_some_and(|parent| parent.has_tag_name("filter"));
         if !UNDERSTOOD.contains(&name) && !is_effect {
-            if heard && !is_fallen_back(node) {
+            if heard && !NEVER_DRAWN.contains(&name) && !is_fallen_back(node) {
                 self.listener.skip(SkippedKind::Element, name, node);
             }
             return Ok(None);
         }
         let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
-        let look = check::look(self.listener, node, is_told)?;
+        let styled = self.cascade.styled(node, &self.elements);
+        let look = check::look(self.listener, node, &styled, is_told)?;
         let to_root = to_root * look.to_parent;
         if !is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
@@ -176,8 +186,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.identify(node);
         self.pixelate(node);
         self.hide_nonsense(node);
-        mended::trim_numbers(self.text, node, &mut self.edits);
-        mended::hide_missing_filter(node, &self.elements, &mut self.edits);
+        styled.write(self.text, node, self.name_end(node), &mut self.edits);
+        mended::trim_numbers(self.text, node, &styled, &mut self.edits);
+        mended::mend_filter(node, &self.elements, &mut self.edits);
         match name {
             "image" => self.image(node, heard),
             "colortri" | "textri" => self.triangle(node)?,
@@ -231,8 +242,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let is_all = node.parent_element().is_some_and(|parent| {
             parent.tag_name().name() == "mask" && parent.children().filter(Node::is_element).count() == 1
         });
-        let id = filter.trim().strip_prefix("url(#").and_then(|id| id.strip_suffix(')'));
-        let effects = id
+        let effects = values::reference(filter)
             .filter(|_| is_all)
             .and_then(|id| self.elements.own(id))
             .map(|filter| filter.children().filter(Node::is_element));
@@ -264,6 +274,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
         nonsense::hide(self.text, node, &mut self.edits);
         if node.tag_name().name() == "style" {
+            cascade::unmark_sheet(self.text, node, &mut self.edits);
             let (cuts, between) = sheets::cuts(self.text, node).unwrap_or_default();
             for at in cuts {
                 self.edits.insert(at, between.clone());
@@ -319,7 +330,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             .filter(|attribute| attribute.name() == "href")
             .collect();
         if attributes::href(node).is_none() {
-            if heard {
+            // Listeners for the mouse are such pictures.
+            if heard && node.attribute("visibility") != Some("hidden") {
                 self.listener.warn(node, "not drawn: it has no href".to_owned());
             }
             return;

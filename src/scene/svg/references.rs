@@ -10,6 +10,7 @@ use roxmltree::{Node, NodeId};
 use super::circles;
 use super::listener::Listener;
 use super::styles::{By, Styles};
+use super::values;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
@@ -332,11 +333,6 @@ pub(super) fn inherited<'doc>(node: Node<'doc, 'doc>, property: &str) -> Option<
             .map(|declaration| declaration.value);
         let value = declared.or_else(|| node.attribute(property))?;
         // The nearest value counts, whatever it is.
-        Some(
-            value
-                .trim()
-                .strip_prefix("url(#")
-                .and_then(|rest| Some(rest.split_once(')')?.0)),
-        )
+        Some(values::reference(value))
     })?
 }

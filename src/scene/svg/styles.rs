@@ -14,7 +14,7 @@ use crate::scene::{Problem, attributes};
 /// Most bytes that may be passed over while styles are read, some seconds' worth.
 const MAX_PASSED: u64 = 3_000_000_000;
 /// How often a `style` attribute is read, here and by usvg; and how often a style sheet.
-const READINGS: [u64; 2] = [6, 4];
+const READINGS: [u64; 2] = [7, 5];
 
 /// Most steps of comparing elements with the rules of style sheets.
 const MAX_STEPS: u64 = 60_000_000;
@@ -232,9 +232,9 @@ fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str
 }
 
 /// An element that counts how often it, and those around it, are asked.
-struct Counted<'c, 'doc> {
-    node: Node<'doc, 'doc>,
-    steps: &'c Cell<u64>,
+pub(super) struct Counted<'c, 'doc> {
+    pub(super) node: Node<'doc, 'doc>,
+    pub(super) steps: &'c Cell<u64>,
 }
 
 impl Counted<'_, '_> {

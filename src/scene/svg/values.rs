@@ -56,6 +56,16 @@ const BLEND_MODES: [&str; 16] = [
     "luminosity",
 ];
 
+/// Properties that are read and not drawn, with the values that make no difference.
+const WITHOUT_EFFECT: [(&str, &[&str]); 6] = [
+    ("animation", &["none"]),
+    ("animation-name", &["none"]),
+    ("direction", &["ltr"]),
+    ("filter", &["none"]),
+    ("font-variant", &["normal"]),
+    ("vector-effect", &["none", "non-scaling-stroke"]),
+];
+
 fn kind(name: &str) -> Option<Kind> {
     Some(match name {
         "x" | "y" | "width" | "height" | "rx" | "ry" | "cx" | "cy" | "r" | "x1" | "y1" | "x2" | "y2" | "fx" | "fy"
@@ -88,6 +98,23 @@ fn kind(name: &str) -> Option<Kind> {
         ]),
         _ => return None,
     })
+}
+
+/// The id of the element of this document to which a value refers, as `url(#id)` does, with or without quotes; what follows is
+/// not looked at.
+pub(super) fn reference(value: &str) -> Option<&str> {
+    let (address, _) = value.trim().strip_prefix("url(")?.split_once(')')?;
+    address.trim().trim_matches(['"', '\'']).strip_prefix('#')
+}
+
+/// Whether a property is read and not drawn, and this value would make a difference.
+pub(super) fn is_without_effect(name: &str, value: &str) -> bool {
+    let Some((_, harmless)) = WITHOUT_EFFECT.iter().find(|(property, _)| *property == name) else {
+        return false;
+    };
+    // Exporters of web pages write all that an animation could have, and no name.
+    let is_named = name != "animation" || value.split_whitespace().all(|word| word != "none");
+    is_named && !harmless.contains(&value) && value != "inherit"
 }
 
 /// Whether it is known what values belong to the name.

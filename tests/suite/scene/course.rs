@@ -273,8 +273,8 @@ fn auto_says_where_another_reading_is_another_picture() {
         (
             "width='10' height='10' viewBox='0 0 5 5'",
             "<polygon/>",
-            Course,
-            Some(Svg),
+            Svg,
+            Some(Course),
         ),
         ("width='10' height='10' viewBox='0 0 10 10'", "<polygon/>", Course, None),
         (size, "<polygon fill='#102030' points='0 0 1 0 1 1'/>", Course, None),
@@ -404,6 +404,15 @@ fn auto_finds_the_dialect() {
         (size, "<colortri opacity='.5'/>", Dialect::Course),
         (size, "<polygon fill='red'/><rect/>", Dialect::Course),
         (size, "<g fill='#fff'><polygon/></g>", Dialect::Svg),
+        // To the course's reader each shape has its own paint, and a size of one pixel means the `viewBox`.
+        (size, "<g fill='#ff0000'><polygon/></g>", Dialect::Svg),
+        ("width='9' height='9' viewBox='0 0 3 3'", "<polygon/>", Dialect::Svg),
+        (
+            "width='1px' height='1px' viewBox='0 0 3 3'",
+            "<polygon/>",
+            Dialect::Course,
+        ),
+        (size, "<circle r='1' style='fill:red'/><rect/>", Dialect::Svg),
         (size, "<line style='stroke: #123456'/>", Dialect::Svg),
         // As other programs write: rects without a size, and icons whose root says how lines look.
         (size, "<path d='M0 0h1v1'/><rect fill='none'/>", Dialect::Svg),

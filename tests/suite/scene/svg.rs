@@ -314,9 +314,86 @@ fn svg_filters_that_are_not_there_hide_nothing() {
         assert_eq!(lines(&svg_scene(&body)).len(), 1, "it is told: {body}");
     }
     // One without effects makes nothing of everything, as SVG wants it.
-    let empty = svg_scene("<filter id='f'/><rect width='8' height='4' filter='url(#f)'/>");
-    assert_eq!(kinds(&empty).len(), 0, "nothing is drawn");
-    assert_eq!(lines(&empty), [""; 0], "nor told");
+    for reference in ["url(#f)", "url('#f')", "url( \"#f\" )"] {
+        let reference = reference.replace('"', "&quot;");
+        let body = format!("<filter id='f'/><rect width='8' height='4' filter=\"{reference}\"/>");
+        let empty = svg_scene(&body);
+        assert_eq!(kinds(&empty).len(), 0, "nothing is drawn: {body}");
+        assert_eq!(lines(&empty), [""; 0], "nor told: {body}");
+    }
+}
+
+#[test]
+fn svg_styles_count_as_css_has_it() {
+    const RECT: &str = "<rect class='a b' id='c' width='8' height='4'";
+    let lime = Rgba::opaque(0.0, 1.0, 0.0);
+    for (sheet, style) in [
+        // The last important declaration counts, by weight and then by place.
+        (".a{fill:red !important} .b{fill:lime!important}", ""),
+        ("#c{fill:lime ! important} .b{fill:red !important}", "style='fill:blue'"),
+        (".a{fill:red !important}", "style='fill:lime !important'"),
+        (".a{fill:red!important;fill:lime!important}", ""),
+        (".a{fill:lime !important;fill:red}", "style=''"),
+        // What cannot be read goes alone.
+        (".a{;fill:lime}", ""),
+        (".a{aspect-ratio:1/1;stroke:;fill:lime}", ""),
+        ("", "style='undefined;fill:lime'"),
+        // Filters that are not there are none, wherever they are named.
+        (".a{filter:url(#gone);fill:lime}", ""),
+        ("", "style='filter:url(#gone);fill:lime'"),
+        // Lengths and transforms count in styles, too.
+        (".a{width:4px;height:8px;fill:lime}", ""),
+        (
+            "",
+            "style='width:16px;height:2px;fill:lime;transform:translate(1mm,2px) rotate(90deg)'",
+        ),
+    ] {
+        let body = format!("<style>{sheet}</style>{RECT} {style}/>");
+        assert_eq!(filled(&body), (32.0, lime), "{body}");
+    }
+    let moved =
+        svg_scene("<style>.a{transform:translateX(5px) scaleY(2)}</style><rect class='a' width='8' height='4'/>");
+    assert_near(&bounds(&moved), &[5.0, 0.0, 13.0, 8.0], "by a rule");
+    assert_eq!(lines(&moved), [""; 0], "which is not told");
+}
+
+#[test]
+fn svg_tells_nothing_of_what_nobody_misses() {
+    for body in [
+        "<text font-family='sans-serif, Nonexistent'>a</text>",
+        "<image visibility='hidden' width='9' height='9'/>",
+        "<view id='v' viewBox='0 0 5 5'/><cursor/>",
+    ] {
+        assert_eq!(lines(&svg_scene(body)), [""; 0], "{body}");
+    }
+    let missing = lines(&svg_scene("<text font-family='Nonexistent, sans-serif'>a</text>"));
+    assert!(missing.len() == 1 && missing[0].contains("Nonexistent"), "{missing:?}");
+}
+
+#[test]
+fn svg_rules_in_vain_are_told_where_they_are_meant() {
+    for (declaration, told) in [
+        ("transform:translate(5%)", "transform"),
+        ("filter:url(#f)", "filter"),
+        ("clip-path:circle(5px)", "clip-path"),
+        ("stroke-width:calc(1px + 2px)", "stroke-width"),
+        ("opacity:foo", "opacity"),
+        ("animation:in 1s", "animation"),
+        ("animation:0s ease 0s 1 normal none running none", ""),
+        ("fill-opacity:.5", ""),
+    ] {
+        let of = |class: &str| {
+            let body = format!(
+                "<style>.a{{{declaration}}}</style><filter id='f'><feOffset/></filter>\
+                 <path class='{class}' stroke='red' d='M0 0H9V9'/>"
+            );
+            lines(&svg_scene(&body))
+        };
+        let found = of("a");
+        assert_eq!(found.len(), usize::from(!told.is_empty()), "{declaration}: {found:?}");
+        assert!(found.iter().all(|line| line.contains(told)), "{declaration}: {found:?}");
+        assert_eq!(of("b"), [""; 0], "it is for nothing");
+    }
 }
 
 #[test]
@@ -398,7 +475,7 @@ fn svg_nonsense_is_ignored_with_a_warning() {
             "clip-path=\"circle(40%)\" is not understood and has no effect",
         ),
         (
-            "<rect width='1' height='1' rx='1' style='rx: 1px; ry: 2px'/>",
+            "<rect width='1' height='1' rx='1' style='rx: 1px; ry: 99999999px'/>",
             "ry has no effect in a style; write it as an attribute",
         ),
         (

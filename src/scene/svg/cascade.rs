@@ -1,0 +1,225 @@
+//! What styles say of an element that usvg would not take from them, written where it takes it from: important declarations,
+//! lengths of shapes, transforms as CSS writes them, filters that are not there.
+//!
+//! Of important declarations the last counts, as of all others (CSS Cascading 4, section 6.1); to usvg it is the first. So the
+//! words `!important` go, and what wins by them stands at the end of the element's own style, which wins over all.
+
+use std::cell::Cell;
+use std::ops::Range;
+
+use roxmltree::Node;
+use simplecss::{Declaration, DeclarationTokenizer, Selector, StyleSheet};
+
+use super::elements::Elements;
+use super::styles::Counted;
+use super::{sheets, transforms, values};
+use crate::scene::edits::Edits;
+
+/// The largest length that is taken over, in user units.
+const FAR: f64 = 1e7;
+
+/// Which properties say how long and where a shape is (SVG 2, section 7.9).
+const GEOMETRY: [(&str, &[&str]); 4] = [
+    ("rect", &["x", "y", "width", "height", "rx", "ry"]),
+    ("circle", &["cx", "cy", "r"]),
+    ("ellipse", &["cx", "cy", "rx", "ry"]),
+    ("image", &["x", "y", "width", "height"]),
+];
+
+/// The rules of a document's style sheets, as far as they are of interest here, the weightiest last.
+#[derive(Debug, Default)]
+pub(super) struct Cascade<'doc> {
+    rules: Vec<(Selector<'doc>, Vec<Declaration<'doc>>)>,
+    /// How often elements were compared with them.
+    steps: Cell<u64>,
+}
+
+/// What styles say of one element, and usvg would not know.
+#[derive(Debug, Default)]
+pub(super) struct Styled<'doc> {
+    /// Names and values, which win over all others.
+    style: Vec<(&'doc str, String)>,
+    /// Lengths of the shape.
+    geometry: Vec<(&'static str, &'doc str)>,
+    /// The transform, as attributes have it.
+    pub(super) transform: Option<String>,
+    /// What of the rules it has no effect.
+    pub(super) in_vain: Vec<Declaration<'doc>>,
+}
+
+impl<'doc> Cascade<'doc> {
+    /// Of the style sheets below `root`.
+    pub(super) fn below(root: Node<'doc, 'doc>) -> Self {
+        let mut sheet = StyleSheet::new();
+        for node in root.descendants().filter(|node| node.tag_name().name() == "style") {
+            sheets::parse(&mut sheet, node.text().unwrap_or(""));
+        }
+        let rules = sheet.rules.into_iter().filter_map(|mut rule| {
+            rule.declarations
+                .retain(|found| is_of_interest(found) || is_in_vain(found));
+            (!rule.declarations.is_empty()).then_some((rule.selector, rule.declarations))
+        });
+        Self {
+            rules: rules.collect(),
+            steps: Cell::new(0),
+        }
+    }
+
+    /// What styles say of `node`; `elements` are those of the document.
+    pub(super) fn styled(&self, node: Node<'doc, 'doc>, elements: &Elements<'doc>) -> Styled<'doc> {
+        let mut styled = Styled::default();
+        if self.rules.is_empty() && !node.has_attribute("style") {
+            return styled;
+        }
+        let mut found: Vec<Declaration<'doc>> = Vec::new();
+        for (selector, declarations) in &self.rules {
+            let steps = &self.steps;
+            if selector.matches(&Counted { node, steps }) {
+                found.extend(declarations);
+            }
+        }
+        styled.in_vain.extend(found.iter().filter(|found| is_in_vain(found)));
+        let style = DeclarationTokenizer::from(node.attribute("style").unwrap_or(""));
+        found.extend(style);
+        found.retain(is_of_interest);
+        let mut names: Vec<&str> = found.iter().map(|declaration| declaration.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        for name in names {
+            let mut own = found.iter().filter(|declaration| declaration.name == name);
+            let important = own.clone().rfind(|declaration| declaration.important);
+            let Some(winner) = important.or_else(|| own.next_back()) else {
+                continue;
+            };
+            styled.take(node, winner, elements);
+        }
+        styled
+    }
+}
+
+impl<'doc> Styled<'doc> {
+    /// Takes over what wins of one property.
+    fn take(&mut self, node: Node<'doc, 'doc>, winner: &Declaration<'doc>, elements: &Elements<'doc>) {
+        let Declaration { name, value, important } = *winner;
+        if name == "transform" {
+            self.transform = transforms::plain(value);
+            if let Some(plain) = self.transform.as_ref().filter(|plain| important || *plain != value) {
+                self.style.push((name, plain.clone()));
+                return;
+            }
+        }
+        if name == "filter" && is_missing(value, elements) {
+            self.style.push((name, "none".to_owned()));
+            return;
+        }
+        if let Some(own) = lengths_of(node).iter().find(|own| **own == name) {
+            self.geometry.extend(is_taken(value).then_some((*own, value)));
+        } else if important {
+            self.style.push((name, value.to_owned()));
+        }
+    }
+
+    /// Whether a length of the shape is taken from its styles.
+    pub(super) fn has_length(&self, name: &str) -> bool {
+        self.geometry.iter().any(|(own, _)| *own == name)
+    }
+
+    /// Writes it into `text`, in which the name in the element's tag ends at `name_end`.
+    pub(super) fn write(&self, text: &str, node: Node<'_, '_>, name_end: usize, edits: &mut Edits) {
+        if let Some(style) = node.attributes().find(|attribute| attribute.name() == "style") {
+            for mark in marks(text, style.range_value()) {
+                edits.replace(mark.clone(), " ".repeat(mark.len()));
+            }
+        }
+        for (name, value) in &self.geometry {
+            let there = node.attributes().find(|attribute| attribute.name() == *name);
+            match there {
+                Some(there) => edits.replace(there.range_value(), escaped(value)),
+                None => edits.insert(name_end, format!(" {name}=\"{}\"", escaped(value))),
+            }
+        }
+        let declarations = self.style.iter();
+        let declarations = declarations.map(|(name, value)| format!("{name}:{}", escaped(value)));
+        let declarations = declarations.collect::<Vec<_>>().join(";");
+        if declarations.is_empty() {
+            return;
+        }
+        match node.attributes().find(|attribute| attribute.name() == "style") {
+            // A style without anything may not begin with a semicolon.
+            Some(style) if style.value().trim().is_empty() => edits.replace(style.range_value(), declarations),
+            Some(style) => edits.insert(style.range_value().end, format!(";{declarations}")),
+            None => edits.insert(name_end, format!(" style=\"{declarations}\"")),
+        }
+    }
+}
+
+/// Takes the words `!important` out of a style sheet.
+pub(super) fn unmark_sheet(text: &str, sheet: Node<'_, '_>, edits: &mut Edits) {
+    for part in sheet.children().filter(Node::is_text) {
+        for mark in marks(text, part.range()) {
+            edits.replace(mark.clone(), " ".repeat(mark.len()));
+        }
+    }
+}
+
+/// Where the words `!important` stand in a part of `text`.
+fn marks(text: &str, part: Range<usize>) -> Vec<Range<usize>> {
+    let style = text.get(part.clone()).unwrap_or("");
+    let signs = style.match_indices('!');
+    let marks = signs.filter_map(|(at, _)| {
+        let after = style[at + 1..].trim_start();
+        let end = style.len() - after.strip_prefix("important")?.len();
+        Some(part.start + at..part.start + end)
+    });
+    marks.collect()
+}
+
+/// The lengths that styles may give a shape.
+fn lengths_of(node: Node<'_, '_>) -> &'static [&'static str] {
+    let shape = GEOMETRY.iter().find(|(shape, _)| *shape == node.tag_name().name());
+    shape.map_or(&[], |(_, lengths)| lengths)
+}
+
+/// Whether usvg may take it otherwise than CSS means it.
+fn is_of_interest(declaration: &Declaration<'_>) -> bool {
+    let Declaration { name, important, .. } = *declaration;
+    let is_length = || GEOMETRY.iter().any(|(_, lengths)| lengths.contains(&name));
+    important || matches!(name, "transform" | "filter") || is_length()
+}
+
+/// Whether a declaration of a rule has a value without meaning; colours are told where they stand.
+fn is_in_vain(declaration: &Declaration<'_>) -> bool {
+    let Declaration { name, value, .. } = *declaration;
+    match name {
+        "fill" | "stroke" | "color" | "stop-color" => false,
+        "transform" => transforms::plain(value).is_none(),
+        _ => values::is_without_effect(name, value) || !values::is_understood(name, value),
+    }
+}
+
+/// Whether a length in a style is one that an attribute can hold.
+fn is_taken(value: &str) -> bool {
+    let length = value.parse::<svgtypes::Length>();
+    value == "auto" || length.is_ok_and(|length| length.number.abs() <= FAR)
+}
+
+/// Whether a filter is referred to that the document does not have.
+pub(super) fn is_missing(value: &str, elements: &Elements<'_>) -> bool {
+    let is_filter = |id| elements.own(id).is_some_and(|node| node.tag_name().name() == "filter");
+    values::reference(value).is_some_and(|id| !is_filter(id))
+}
+
+/// A value as it stands in an attribute in double or single quotes.
+fn escaped(value: &str) -> String {
+    let mut escaped = String::with_capacity(value.len());
+    for c in value.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&apos;"),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}

@@ -58,7 +58,7 @@ impl Explanation {
                 self.few_of_many(paint, texture).or_else(blurred)
             }),
             Setting::Anisotropy => texture.and_then(|(_, texture)| texture.blurred_across()),
-            Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels()),
+            Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels(self.exact)),
             Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
             Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),
             Setting::LodPer => {
@@ -209,7 +209,7 @@ impl Explanation {
             .collect();
         let is_whole = paint.fragments.len() == self.samples.len();
         (is_whole && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
-            let readers = if paint.shaded_at.is_some() {
+            let readers = if self.exact || paint.shaded_at.is_some() {
                 "the one place that is shaded reads"
             } else {
                 "its samples read"
@@ -316,10 +316,11 @@ impl Texture {
         self.taps == 1 && self.area.is_none() && matches!(self.levels.as_slice(), [level] if level.number == 0)
     }
 
-    fn single_texels(&self) -> Option<String> {
+    fn single_texels(&self, exact: bool) -> Option<String> {
         let is_point = self.taps == 1 && self.area.is_none();
         let one = self.pixel_sampling == "nearest" && is_point && self.levels.len() == 1;
-        one.then(|| "A sample reads only the nearest texel.".to_owned())
+        let reader = if exact { "The pixel's centre" } else { "A sample" };
+        one.then(|| format!("{reader} reads only the nearest texel."))
     }
 
     fn blurred_across(&self) -> Option<String> {
@@ -391,7 +392,7 @@ mod tests {
             (texture("nearest", "linear", [9.0, 8.0]), false),
             (taps(16, texture("nearest", "zero", [9.0, 1.0])), false),
         ] {
-            assert_eq!(texture.single_texels().is_some(), expected, "{texture:?}");
+            assert_eq!(texture.single_texels(false).is_some(), expected, "{texture:?}");
         }
     }
 

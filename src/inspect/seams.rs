@@ -132,7 +132,9 @@ impl Explanation {
             .flat_map(|(i, b)| near[..i].iter().map(move |a| (*a, *b)));
         let mut gaps = pairs.filter_map(|((a, edge_a, from_a), (b, edge_b, from_b))| {
             let gap = from_a + from_b;
-            let meets = gap < WIDEST_GAP && self.face([a, b], [edge_a, edge_b]) && self.are_apart(a, b);
+            let edges = [(a, edge_a), (b, edge_b)];
+            let narrow = gap < WIDEST_GAP && self.widest_between(edges).is_none_or(|widest| widest < WIDEST_GAP);
+            let meets = narrow && self.face([a, b], [edge_a, edge_b]) && self.are_apart(a, b);
             (meets && self.shows_below(sample, [a, b])).then_some((sample, [a, b], gap))
         });
         gaps.next()
@@ -166,6 +168,30 @@ impl Explanation {
         let (edge, more) = (out.next()?, out.next());
         let distance = edges[edge].distance.abs();
         (more.is_none() && distance > 0.0 && distance < WIDEST_GAP).then_some((edge, distance))
+    }
+
+    /// How far two edges are from each other where they are farthest, in pixels: at the ends of each that lie beside the other.
+    /// Where a wedge opens it is part of the drawing, though its tip is narrow.
+    fn widest_between(&self, edges: [(usize, usize); 2]) -> Option<f64> {
+        let ends = |(paint, edge): (usize, usize)| {
+            let corners = self.corners(paint)?;
+            Some([corners[edge], corners[(edge + 1) % 3]])
+        };
+        let (a, b) = ends(edges[0]).zip(ends(edges[1]))?;
+        let distances = |[from, to]: [[f64; 2]; 2], ends: [[f64; 2]; 2]| {
+            let way = [to[0] - from[0], to[1] - from[1]];
+            let length = way[0].hypot(way[1]);
+            let beside = move |end: &[f64; 2]| {
+                let along = (end[0] - from[0]) * way[0] + (end[1] - from[1]) * way[1];
+                (0.0..=length * length).contains(&along)
+            };
+            ends.into_iter()
+                .filter(beside)
+                .map(move |end| side(from, to, end).abs() / length)
+                .collect::<Vec<_>>()
+        };
+        let all = distances(a, b).into_iter().chain(distances(b, a));
+        all.filter(|distance| distance.is_finite()).reduce(f64::max)
     }
 
     /// Whether an edge of `a` and one of `b` run side by side.

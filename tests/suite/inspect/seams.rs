@@ -101,6 +101,10 @@ fn seams_of_gaps_in_the_document() {
         let told = at(&body, samples);
         assert!(!told.contains(GAP), "{why}: {told}");
     }
+    // The same edges, but that one leans: narrow at the top, and wide at the foot.
+    let wedge = r##"<polygon fill="#802060" points="0,0 4.48,0 4.1,12"/><polygon fill="#208060" points="4.53,0 4.9,12 12,0"/>"##;
+    let told = at(wedge, 9);
+    assert!(!told.contains(GAP), "a wedge is meant: {told}");
 }
 
 #[test]

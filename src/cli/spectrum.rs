@@ -218,7 +218,10 @@ impl Report {
             ));
         }
         if self.peaks.is_empty() {
-            lines.push("No waves: all is of one colour, or shading slower than three periods.".to_owned());
+            lines.push(
+                "No wave stands out: all is of one colour, edges that are waves of every length, or slow shading."
+                    .to_owned(),
+            );
             return lines.join("\n");
         }
         let unit = if self.level.is_some() { "texel" } else { "pixel" };

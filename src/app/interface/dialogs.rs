@@ -215,11 +215,12 @@ impl Dialogs {
             return;
         };
         if argument.trim().is_empty() {
-            if let Action::Run(command) = spec.action {
-                commands.extend([Command::Window(WindowCommand::CloseDialog), command.clone()]);
-                return;
+            // Where values can follow, whoever chooses the command may want to name one.
+            let asks = matches!(spec.action, Action::Step(..)) && spec.argument.is_some();
+            match spec.command().filter(|_| !asks) {
+                Some(command) => commands.extend([Command::Window(WindowCommand::CloseDialog), command]),
+                None => self.go_on(spec),
             }
-            self.go_on(spec);
             return;
         }
         match spec.argument.map(|kind| kind.parse(argument)) {

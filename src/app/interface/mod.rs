@@ -267,7 +267,7 @@ impl Interface {
             if let Some(spec) = line.inner {
                 self.dialogs.ask_for(spec, &mut asked.commands);
             }
-            if self.beside_lesson(viewer, whole.width()) < whole.width() {
+            if self.has_room_for_lesson(viewer, whole.width()) {
                 page = self.lesson_panel(ui, viewer, whole.width(), asked);
             }
             if viewer.chrome().panel() {

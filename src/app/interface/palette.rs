@@ -68,10 +68,14 @@ impl Entry {
 /// What the typed text may mean, best first, and what follows a command's word.
 pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
     let text = text.trim_start();
-    if let Some((spec, argument)) = with_argument(text) {
-        return (argument.to_owned(), vec![Entry::of_command(spec)]);
-    }
     let wanted = text.trim_end().to_lowercase();
+    if let Some((spec, argument)) = with_argument(text) {
+        // "Rotate l" is not 'Rotate by "l"'.
+        let names_another = !argument.trim().is_empty() && begins_name(&wanted);
+        if !names_another {
+            return (argument.to_owned(), vec![Entry::of_command(spec)]);
+        }
+    }
     let mut found: Vec<(usize, Entry)> = commands::all()
         .iter()
         .filter_map(|spec| Some((rank(spec, &wanted)?, Entry::of_command(spec))))
@@ -98,7 +102,9 @@ fn with_argument(text: &str) -> Option<(&'static CommandSpec, &str)> {
         let name = spec.name.trim_end_matches([' ', '\u{2026}']);
         // A single word may as well be the first of what is looked for.
         let by_name = || after(name).filter(|_| name.contains(' '));
-        Some((spec, after(spec.id).or_else(by_name)?))
+        // Of both the longer one is meant, which leaves less.
+        let rest = [after(spec.id), by_name()].into_iter().flatten();
+        Some((spec, rest.min_by_key(|rest| rest.len())?))
     });
     // Of two names the longer one is meant.
     let first = found.next()?;
@@ -106,6 +112,13 @@ fn with_argument(text: &str) -> Option<(&'static CommandSpec, &str)> {
         first,
         |best, next| if next.1.len() < best.1.len() { next } else { best },
     ))
+}
+
+/// Whether a command's name begins like this.
+fn begins_name(wanted: &str) -> bool {
+    commands::all()
+        .iter()
+        .any(|spec| spec.name.to_lowercase().starts_with(wanted))
 }
 
 /// The values of a setting that can be listed.
@@ -135,30 +148,33 @@ fn scenes(viewer: &Viewer) -> impl Iterator<Item = Entry> {
 /// How well a command fits what was typed: the lower the better, `None` not at all.
 fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
     let name = spec.name.to_lowercase();
-    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
+    if name == wanted || spec.id == wanted {
         return Some(0);
     }
-    if name.contains(wanted) || spec.id.contains(wanted) {
+    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
         return Some(1);
     }
+    if name.contains(wanted) || spec.id.contains(wanted) {
+        return Some(2);
+    }
     if spec.help.to_lowercase().contains(wanted) {
-        return Some(3);
+        return Some(4);
     }
     // The letters in their order, with others between them.
     let mut letters = name.chars();
     wanted
         .chars()
         .all(|letter| letters.any(|other| other == letter))
-        .then_some(4)
+        .then_some(5)
 }
 
 /// How well a name fits what was typed: all its words are there, best where the name has them as they were typed.
 fn rank_of_name(name: &str, wanted: &str) -> Option<usize> {
     let name = name.to_lowercase();
     if name.contains(wanted) {
-        return Some(1);
+        return Some(2);
     }
-    wanted.split_whitespace().all(|word| name.contains(word)).then_some(2)
+    wanted.split_whitespace().all(|word| name.contains(word)).then_some(3)
 }
 
 #[cfg(test)]
@@ -233,5 +249,27 @@ mod tests {
             "a command with its argument"
         );
         assert!(names("no such thing at all").is_empty(), "nothing");
+        for spec in commands::all() {
+            let found = names(spec.name);
+            assert_eq!(
+                found.first().map(String::as_str),
+                Some(spec.name),
+                "by its whole name: {found:?}"
+            );
+        }
+        for (text, argument) in [
+            ("Rotate by 33", "33"),
+            ("rotate 33", "33"),
+            ("seed of random patterns 7", "7"),
+            ("Zoom by 3 100,100", "3 100,100"),
+            ("rate ", ""),
+        ] {
+            let (rest, found) = find(text, &viewer);
+            assert_eq!((rest.as_str(), found.len()), (argument, 1), "{text}: {found:?}");
+        }
+        assert!(
+            names("rotate l").contains(&"Rotate left".to_owned()),
+            "the start of a name"
+        );
     }
 }

@@ -24,6 +24,11 @@ impl Interface {
         if has_panel { window - lesson } else { window }
     }
 
+    /// Whether the text of a lesson is to be seen in a window of that many points in width.
+    pub(in crate::app) fn has_room_for_lesson(&self, viewer: &Viewer, window: f32) -> bool {
+        self.beside_lesson(viewer, window) < window
+    }
+
     /// Whether a lesson leaves no room for the explanation of a pixel in a window of that many points in width: then both
     /// are pages of one panel.
     pub(in crate::app) fn lesson_shares_panel(&self, viewer: &Viewer, window: f32) -> bool {

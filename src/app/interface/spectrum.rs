@@ -200,6 +200,9 @@ fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
             place(source.frequency)
         ),
         (None, None) if is_texture => format!("{} /px", place(reading.in_pixels)),
+        (None, None) if found.analysis.of() == SpectrumOf::Difference => {
+            "Error that no single wave of the scene makes".to_owned()
+        }
         (None, None) => "In the scene as it is".to_owned(),
     };
     [first, second]

@@ -8,7 +8,7 @@ use super::hands::{place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand};
+use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand, LessonCommand, SceneCommand};
 
 const CLOSE: &str = "Close the board";
 
@@ -24,6 +24,42 @@ fn vary(session: &mut Session, name: &str, values: &str) {
 
 fn rate(session: &Session) -> u32 {
     session.viewer.settings().render.sample_rate.samples()
+}
+
+#[test]
+fn numbers_of_what_is_not_there_are_told() {
+    let mut session = session(rings(), [1280, 800]);
+    vary(&mut session, "sample-rate", "1,4");
+    session.command(Command::Board(BoardCommand::MakeA(4)));
+    session.settle();
+    assert!(says(&mut session, "there is no tile 5: the board has 2"), "to make A");
+    session.command(Command::Board(BoardCommand::Remove(2)));
+    session.settle();
+    assert!(says(&mut session, "there is no tile 3: the board has 2"), "to remove");
+    session.command(Command::Scenes(SceneCommand::Show(98)));
+    session.settle();
+    assert!(says(&mut session, "there is no scene 99: the list has 1"), "to show");
+    session.command(Command::Lesson(LessonCommand::Step(0)));
+    session.settle();
+    assert!(
+        says(&mut session, "no lesson is open that has steps"),
+        "no lesson is open"
+    );
+    session.command(Command::Inspector(InspectorCommand::Pin([9999, 5])));
+    session.settle();
+    assert!(
+        says(
+            &mut session,
+            "no pixel (9999, 5) in a picture of 1280 x 800: the nearest, (1279, 5), is pinned"
+        ),
+        "beside the picture"
+    );
+    session.command(Command::Inspector(InspectorCommand::Pin([99, 5])));
+    session.settle();
+    assert!(
+        !says(&mut session, "is pinned"),
+        "a pixel of the picture makes no words"
+    );
 }
 
 #[test]

@@ -12,7 +12,13 @@ impl Session {
         if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
             return None;
         }
-        if self.viewer.chrome().dialog().is_none() && self.interface.takes_key(press) {
+        let in_card = self.viewer.chrome().dialog().is_some();
+        // Esc closes a card, whatever has the focus in it.
+        let by_focus = !(in_card && press.logical == Some(Key::Escape)) && self.interface.takes_key(press);
+        // The picture behind a card has none of the keys that press its buttons.
+        let by_card = in_card && matches!(press.logical, Some(Key::Tab | Key::Space | Key::Enter));
+        let takes = by_focus || by_card;
+        if takes {
             return None;
         }
         let command = commands::for_key(press)?;

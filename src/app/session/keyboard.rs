@@ -12,7 +12,7 @@ use super::hands::{key, nodes, session};
 use super::small_windows::right_click;
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, Toggle};
+use crate::viewer::{AbCommand, Against, LessonSource, Toggle};
 
 /// The name of what has the keyboard; `None` for the picture.
 fn focused(session: &mut Session) -> Option<String> {
@@ -86,6 +86,48 @@ fn tab_goes_through_a_panel_that_has_the_keyboard_and_hides_panels_otherwise() {
         session.viewer.chrome().everything_hidden(),
         "there Tab hides the panels"
     );
+}
+
+#[test]
+fn keys_press_the_buttons_of_cards_and_nothing_behind_them() {
+    for name in ["?", "Shift+S"] {
+        let mut session = session(Vec::new(), [1280, 800]);
+        let nobody = focused(&mut session);
+        key(&mut session, name);
+        session.settle();
+        assert!(session.viewer.chrome().dialog().is_some(), "{name} opens a card");
+        key(&mut session, "Tab");
+        session.settle();
+        let first = focused(&mut session);
+        assert_ne!(first, nobody, "a control of the card of {name}");
+        key(&mut session, "Tab");
+        session.settle();
+        assert_ne!(focused(&mut session), first, "the next of {name}");
+        assert!(!session.viewer.chrome().everything_hidden(), "Tab is the card's");
+        let pins = session.viewer.pixels().pinned();
+        key(&mut session, "Escape");
+        session.settle();
+        assert_eq!(session.viewer.chrome().dialog(), None, "Esc closes the card of {name}");
+        assert_eq!(session.viewer.pixels().pinned(), pins, "nothing was pinned");
+    }
+}
+
+#[test]
+fn lesson_without_room_is_told() {
+    let mut session = session(Vec::new(), [400, 300]);
+    session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
+    session.settle();
+    let told = |session: &Session| {
+        let messages = session.viewer.chrome().messages();
+        messages
+            .iter()
+            .any(|message| message.text.contains("text of the lesson"))
+    };
+    assert!(told(&session), "there is no room for it");
+    let mut wide = hands::session(Vec::new(), [1280, 800]);
+    wide.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
+    wide.settle();
+    assert!(!told(&wide), "here is");
 }
 
 #[test]

@@ -45,7 +45,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-use crate::viewer::{InspectorCommand, PointerCommand, SheetCommand, WindowCommand};
+use crate::viewer::{InspectorCommand, LessonCommand, PointerCommand, SceneCommand, SheetCommand, WindowCommand};
 use std::collections::VecDeque;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -323,7 +323,15 @@ impl Session {
             Command::Inspector(InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge)
                 | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
         );
+        let in_lesson = matches!(
+            command,
+            Command::Lesson(LessonCommand::Open(_) | LessonCommand::Step(_))
+                | Command::Scenes(SceneCommand::Next | SceneCommand::Previous | SceneCommand::Open(_))
+        );
         self.apply(command);
+        if in_lesson {
+            self.tell_no_lesson();
+        }
         if before != fold(&self.viewer) {
             self.fold_panel();
         }

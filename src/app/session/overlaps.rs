@@ -85,7 +85,9 @@ fn nothing_lies_over_the_ring_of_a_pin_beside_panels() {
             let mut session = comparing(window);
             session.command(Command::Ab(AbCommand::Arrange(arrangement)));
             session.settle();
+            let layout = session.viewer.both().layout();
             for at in places(&session).into_iter().step_by(5) {
+                let at = layout.nearest_in_frame(at).expect("a frame").map(i64::from);
                 session.command(Command::Inspector(InspectorCommand::Pin(at)));
                 session.settle();
                 nothing_overlaps(&session, &format!("{arrangement:?} of {window:?} at {at:?}"));

@@ -20,6 +20,9 @@ pub(super) struct PanelRoom {
     hid_explanation: bool,
 }
 
+/// What is said where the text of a lesson has no room.
+const NO_LESSON: &str = "no room here for the text of the lesson: make the window wider";
+
 /// What a command asks to be seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted {
@@ -137,6 +140,14 @@ impl Session {
         let asks = wanted == Wanted::Explanation && self.viewer.pixels().has_explanation_open();
         if asks && !self.interface.has_room_to_explain(&self.viewer, width) {
             self.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+        }
+    }
+
+    /// Tells whoever goes on in a lesson that there is no room for its text.
+    pub(super) fn tell_no_lesson(&mut self) {
+        let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
+        if self.viewer.lesson().is_some() && !self.interface.has_room_for_lesson(&self.viewer, width) {
+            self.viewer.tell(MessageKind::Done, NO_LESSON.to_owned());
         }
     }
 

@@ -27,7 +27,7 @@ pub(in crate::cli) struct DiffOptions {
     #[arg(long, conflicts_with = "gain")]
     pub(in crate::cli) normalize: bool,
     /// Levels of 255 that a channel may differ by without an exit status of 1
-    #[arg(long, default_value_t = 0, value_name = "T")]
+    #[arg(long, default_value_t = 0, value_name = "T", allow_negative_numbers = true)]
     pub(in crate::cli) tolerance: u8,
     /// Most pixels of a picture; comparing takes about 16 bytes of memory for each
     #[arg(long, default_value_t = MAX_PIXELS, value_name = "N")]

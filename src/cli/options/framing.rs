@@ -11,7 +11,7 @@ use crate::geometry::View;
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct PictureOptions {
     /// Pixels of the picture
-    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
+    #[arg(long, default_value = "1024x1024", value_name = "WxH", allow_hyphen_values = true)]
     pub(in crate::cli) size: FrameSize,
     #[command(flatten)]
     pub(in crate::cli) sampling: SamplingOptions,

@@ -11,7 +11,7 @@ pub(in crate::cli) struct InspectOptions {
     /// An SVG file, or a scene of the gallery such as gallery:basic/test4.svg
     pub(in crate::cli) scene: PathBuf,
     /// Column and row of the pixel, from 0
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub(in crate::cli) pixel: PixelPlace,
     /// The sample that is told in full of every primitive, from 1 [default: the most telling one]
     #[arg(long, value_name = "K")]

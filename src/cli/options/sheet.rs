@@ -18,7 +18,7 @@ pub(in crate::cli) struct SheetOptions {
     #[arg(short, long, value_name = "OUT.png")]
     pub(in crate::cli) output: PathBuf,
     /// Pixels of each panel [default: squares that make the sheet 1890 pixels wide, 16 cm at 300 dpi]
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(in crate::cli) size: Option<FrameSize>,
     /// Magnify a region of every panel: X,Y is its middle in pixels, uX,Y in user units; may come several times
     #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]

@@ -39,7 +39,7 @@ pub(in crate::cli) struct SweepOptions {
     #[arg(long, default_value = "5", value_name = "K", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(in crate::cli) frames: u32,
     /// Pixels of the pictures
-    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
+    #[arg(long, default_value = "1024x1024", value_name = "WxH", allow_hyphen_values = true)]
     pub(in crate::cli) size: FrameSize,
     #[command(flatten)]
     pub(in crate::cli) axes: Lists,

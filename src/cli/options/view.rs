@@ -18,7 +18,7 @@ pub(in crate::cli) struct ViewerOptions {
     /// SVG files and folders of them, or a PNG of this program: its scene, view and settings
     pub(in crate::cli) paths: Vec<PathBuf>,
     /// The window's size in device pixels [default: 1280x800]
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(in crate::cli) size: Option<FrameSize>,
     /// Compare with this from the start: `truth` (or `truth stored`, `truth linear`), `settings`, settings such as "sample-rate 16, dialect svg", or the file of a
     /// PNG or JPEG

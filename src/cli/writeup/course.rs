@@ -212,6 +212,12 @@ pub(super) struct Scenes<'a> {
 impl<'a> Scenes<'a> {
     /// Scenes for a write-up in `output`; those that are made for it go into a folder in there.
     pub(super) fn new(options: &'a WriteupOptions) -> Result<Self, Failure> {
+        if let Some(folder) = options.scenes.as_deref().filter(|folder| !folder.is_dir()) {
+            return Err(Failure::input(format!(
+                "{}: no such folder; give the folder of your scenes with --scenes",
+                folder.display()
+            )));
+        }
         let folder = options.output.join("scenes");
         let mut scenes = Self {
             options,

@@ -39,6 +39,12 @@ pub(in crate::viewer) struct Messages {
     next_id: u64,
 }
 
+/// Said to whoever names the `what` of this index, from 0, where `owner` has only so many, such as "the list".
+pub(in crate::viewer) fn no_such(what: &str, index: usize, owner: &str, count: usize) -> String {
+    let number = index.saturating_add(1);
+    format!("there is no {what} {number}: {owner} has {count}")
+}
+
 impl Messages {
     pub(in crate::viewer) fn all(&self) -> &[Message] {
         &self.list

@@ -270,7 +270,8 @@ pub(in crate::viewer) const MAGNIFICATION: Argument = argument("a whole number o
 });
 
 pub(in crate::viewer) const REGION: Argument = argument("a whole number from 8 to 64", |text| {
-    whole(text).map(InspectorCommand::SetRegion).map(Command::Inspector)
+    let side = whole(text).filter(|side| (8..=64).contains(side));
+    side.map(InspectorCommand::SetRegion).map(Command::Inspector)
 });
 
 pub(in crate::viewer) const PROFILE: Argument =

@@ -122,7 +122,7 @@ pub enum SceneCommand {
     Next,
     /// The scene before the current one, round and round; in a lesson the step before.
     Previous,
-    /// The scene with this index, counted from 0. Nothing happens where there is none.
+    /// The scene with this index, counted from 0; where there is none, the user is told.
     Show(usize),
     /// Replaces the scenes by those in these files and folders. Where they hold none, nothing changes.
     Open(Vec<PathBuf>),

@@ -12,6 +12,7 @@ use crate::viewer::board::measure::{BoardPlace, BoardTile};
 use crate::viewer::board::measuring::BoardQuestion;
 use crate::viewer::board::numbers::BoardSort;
 use crate::viewer::board::report::{BoardCommandLine, BoardReport};
+use crate::viewer::chrome::messages::no_such;
 use crate::viewer::command::Effect;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::recipes::Recipes;
@@ -24,6 +25,8 @@ use crate::viewer::state::Viewer;
 
 /// Said where tiles are still missing.
 const NOT_YET: &str = "the board is not measured yet; wait until every tile has its numbers";
+/// Said where there are none.
+const EMPTY: &str = "the board is empty; add settings first, with board-add or board-vary";
 
 /// A tile of the board as it is shown.
 #[derive(Clone, Debug)]
@@ -190,9 +193,14 @@ impl<'a> Boarded<'a> {
         }
     }
 
+    /// Why there is nothing to report.
+    fn why_none(&self) -> &'static str {
+        if self.board.entries.is_empty() { EMPTY } else { NOT_YET }
+    }
+
     /// The table for the clipboard.
     fn copied(&self, format: TableFormat) -> Result<Copied, String> {
-        let report = self.report().ok_or(NOT_YET)?;
+        let report = self.report().ok_or_else(|| self.why_none())?;
         let count = report.rows.len();
         let (text, name) = match format {
             TableFormat::Markdown => (report.markdown(), "Markdown"),
@@ -206,7 +214,7 @@ impl<'a> Boarded<'a> {
 
     /// The picture of the board, and how it was made.
     fn saved(&self) -> Result<Work, String> {
-        let report = self.report().ok_or(NOT_YET)?;
+        let report = self.report().ok_or_else(|| self.why_none())?;
         let picture = report.picture(self.ground())?;
         let line = self.command_line(report.place.region);
         let scene = self.recipes.known_scene().map(|known| known.scene);
@@ -260,21 +268,24 @@ impl Viewer {
             BoardCommand::Add(changes) => return self.add_to_board(&changes).err().map(Err),
             BoardCommand::Vary(axis) => return self.vary_on_board(&axis).err().map(Err),
             BoardCommand::Remove(index) => {
-                let entry = self.board.sorted().get(index).copied();
-                self.board.entries.retain(|known| Some(*known) != entry);
+                let Some(entry) = self.board.sorted().get(index).copied() else {
+                    return Some(Err(self.no_tile(index)));
+                };
+                self.board.entries.retain(|known| *known != entry);
             }
             BoardCommand::Clear => self.board.entries.clear(),
             BoardCommand::Sort(sort) => self.board.sort = sort,
             BoardCommand::SetSide(side) => self.board.side = side.clamp(SIDES[0], SIDES[2]),
             BoardCommand::MakeA(index) => {
-                if let Some(entry) = self.board.sorted().get(index) {
-                    let outline = self.settings.render.outline;
-                    self.settings.render = RenderSettings {
-                        outline,
-                        ..entry.render
-                    };
-                    self.settings.dialect = entry.dialect;
-                }
+                let Some(entry) = self.board.sorted().get(index).copied() else {
+                    return Some(Err(self.no_tile(index)));
+                };
+                let outline = self.settings.render.outline;
+                self.settings.render = RenderSettings {
+                    outline,
+                    ..entry.render
+                };
+                self.settings.dialect = entry.dialect;
             }
             BoardCommand::Copy(format) => return Some(self.board().copied(format)),
             BoardCommand::Save => match self.board().saved() {
@@ -284,6 +295,11 @@ impl Viewer {
         }
         self.chrome.hidden &= !self.board.open;
         None
+    }
+
+    /// Said where the board has no tile with this index.
+    fn no_tile(&self, index: usize) -> String {
+        no_such("tile", index, "the board", self.board.entries.len())
     }
 
     /// The settings of A with these changes become an entry.

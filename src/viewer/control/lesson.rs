@@ -12,7 +12,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::requests::ComparisonContext;
 use crate::viewer::chrome::Chrome;
-use crate::viewer::chrome::messages::NO_ROOM;
+use crate::viewer::chrome::messages::{NO_ROOM, no_such};
 use crate::viewer::inspector::Reveal;
 use crate::viewer::inspector::state::Inspection;
 use crate::viewer::lesson::model::{Lesson, LessonStep};
@@ -39,7 +39,17 @@ impl Lessons<'_> {
     pub(in crate::viewer) fn apply(&mut self, command: LessonCommand) {
         match command {
             LessonCommand::Open(source) => self.open(&source),
-            LessonCommand::Step(step) => self.take_step(step),
+            LessonCommand::Step(step) => {
+                let wrong = match self.lesson {
+                    Some(walk) if step < walk.lesson.steps.len() => None,
+                    Some(walk) => Some(no_such("step", step, "the lesson", walk.lesson.steps.len())),
+                    None => Some("no lesson is open that has steps; open one first".to_owned()),
+                };
+                match wrong {
+                    None => self.take_step(step),
+                    Some(wrong) => self.chrome.messages.error(wrong),
+                }
+            }
             LessonCommand::Close => {
                 self.close();
             }

@@ -13,6 +13,7 @@ use crate::viewer::ab::outside::is_picture;
 use crate::viewer::ab::requests::ComparisonContext;
 use crate::viewer::board::Board;
 use crate::viewer::chrome::Chrome;
+use crate::viewer::chrome::messages::no_such;
 use crate::viewer::control::lesson::Lessons;
 use crate::viewer::export::restored::Restored;
 use crate::viewer::export::spec::PictureSpec;
@@ -83,7 +84,11 @@ impl Opening<'_> {
         match command {
             SceneCommand::Next => scenes.step(1),
             SceneCommand::Previous => scenes.step(scenes.scenes.len().saturating_sub(1)),
-            SceneCommand::Show(index) => scenes.show(index),
+            SceneCommand::Show(index) if index < scenes.scenes.len() => scenes.show(index),
+            SceneCommand::Show(index) => {
+                let missing = no_such("scene", index, "the list", scenes.scenes.len());
+                self.chrome.messages.error(missing);
+            }
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace(library::gallery_entries()),
             SceneCommand::Reload => scenes.read_current(self.ab.wanted_dialects(self.settings)),

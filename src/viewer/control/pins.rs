@@ -15,6 +15,9 @@ use crate::viewer::view::panes::Panes;
 /// What is said about pixels of a scene that could not be read.
 const NO_PICTURE: &str = "no picture to explain: this scene could not be read";
 
+/// How words begin that say which pixel is pinned instead of one beside the picture.
+const NO_PIXEL: &str = "no pixel";
+
 /// Frame pixels that stay free beside a pinned one in a frame that becomes smaller.
 const PIN_ROOM: i64 = 24;
 
@@ -36,7 +39,7 @@ impl Hand<'_> {
             InspectorCommand::SetMagnification(magnification) => magnifier.set_magnification(magnification),
             InspectorCommand::StepMagnification(steps) => magnifier.step(steps),
             InspectorCommand::PinUnderPointer => self.pin_under_pointer(),
-            InspectorCommand::Pin(pixel) => self.pin(pixel),
+            InspectorCommand::Pin(pixel) => self.pin_or_nearest(pixel),
             InspectorCommand::PinEdge => self.pin_edge(),
             InspectorCommand::Nudge(by) => self.inspector.nudge(by, &self.layout(), self.chrome),
             InspectorCommand::Unpin => magnifier.pin = None,
@@ -87,7 +90,24 @@ impl Hand<'_> {
         self.inspector.contributions.want(contributing, |_| None);
     }
 
+    /// Pins a pixel that was named; where the picture does not reach it, the nearest, and says so.
+    fn pin_or_nearest(&mut self, pixel: [i64; 2]) {
+        let layout = self.layout();
+        self.pin(pixel);
+        if let Some(nearest) = layout
+            .nearest_in_frame(pixel)
+            .filter(|_| layout.in_frame(pixel).is_none())
+        {
+            let [width, height] = layout.frame_size();
+            let ([x, y], [near_x, near_y]) = (pixel, nearest);
+            self.chrome.messages.done(format!(
+                "{NO_PIXEL} ({x}, {y}) in a picture of {width} x {height}: the nearest, ({near_x}, {near_y}), is pinned"
+            ));
+        }
+    }
+
     fn pin(&mut self, pixel: [i64; 2]) {
+        self.chrome.messages.retract(NO_PIXEL);
         self.inspector.pin(pixel, &self.layout(), self.chrome);
     }
 

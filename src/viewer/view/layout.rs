@@ -157,7 +157,7 @@ impl WindowLayout {
     }
 
     /// The frame's nearest pixel; `None` if it has no pixels.
-    pub(in crate::viewer) fn nearest_in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
+    pub(crate) fn nearest_in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
         let [width, height] = self.panes.frame;
         let last = [i64::from(width) - 1, i64::from(height) - 1];
         self.in_frame([pixel[0].min(last[0]).max(0), pixel[1].min(last[1]).max(0)])

@@ -317,7 +317,7 @@ fn overlay_palette_takes_an_argument_later() {
         };
         picture(&case, folder.path())
     };
-    let chosen = after("panel on; key Ctrl+Shift+P; type rate; key Down; key Down; key Enter; type 16; key Enter");
+    let chosen = after("panel on; key Ctrl+Shift+P; type rate; key Enter; type 16; key Enter");
     assert!(chosen == after("panel on; rate 16"), "as if typed in one go");
     assert!(chosen != after("panel on"), "the rate is to be seen");
 }

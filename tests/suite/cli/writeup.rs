@@ -123,6 +123,8 @@ fn writeup_at_fault_is_told_in_one_line() {
     refused(&["-o", "file"], &["file", "-o"]);
     refused(&["-o", "file/out"], &["file/out", "-o"]);
     refused(&["-o", "out", "--own", "file"], &["file", "--own"]);
+    refused(&["-o", "out", "--scenes", "missing"], &["missing", "--scenes"]);
+    refused(&["-o", "out", "--scenes", "file"], &["file", "--scenes"]);
     refused(&["-o", "out", "--own", "missing.png"], &["missing.png"]);
     refused(
         &["-o", "out", "--pins", "pins.toml"],

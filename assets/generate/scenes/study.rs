@@ -99,7 +99,7 @@ fn edge_fan() -> String {
         &[
             "Edges that are almost level and almost upright: each bar climbs half a pixel more than the one before it.",
             "At rate 1 each climb is a few hard steps far apart. Press = : at 4 samples each step splits in two, at 16 in four.",
-            "Z on a step: count the levels between the two colours. The grid pattern has n of them, however many samples it takes.",
+            "Z on a step: between both colours most pixels of the grid of n x n samples have one of n - 1: it is passed row by row.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(NIGHT));

@@ -280,7 +280,7 @@ fn city_floor() -> String {
         1000.0,
         640.0,
         &[
-            "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 35 times as long as wide.",
+            "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 50 times as long as wide.",
             "P, then L twice: far streets melt, because the mip level has to fit the length. T: 2, 4, 8, 16 taps along it, at",
             "the level that fits its width. Street by street the plan comes back, and still nothing shimmers when it is dragged.",
             "Level by area (lod-by area in the palette) keeps streets further away with one tap, at the price of some shimmer.",

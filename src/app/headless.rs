@@ -124,15 +124,7 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
 /// Whether all went well so far: the scene could be read, screenshots could be saved. If not, the first thing that
 /// went wrong.
 fn untroubled(session: &Session) -> Result<(), AppError> {
-    let viewer = session.viewer();
-    let failure = viewer.scene_list().current().and_then(|entry| entry.failure());
-    let error = viewer
-        .chrome()
-        .messages()
-        .iter()
-        .find(|message| message.kind == MessageKind::Error);
-    match failure.or(error.map(|message| message.text.as_str())) {
-        Some(problem) => Err(AppError::Input(problem.to_owned())),
-        None => Ok(()),
-    }
+    session
+        .problem()
+        .map_or(Ok(()), |problem| Err(AppError::Input(problem)))
 }

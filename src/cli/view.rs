@@ -10,7 +10,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     use super::picture::no_threads;
     use super::{interrupt, memory};
     use crate::app::{self, AppError, ScriptSource, ViewOptions};
-    use crate::viewer::{LessonSource, patterns};
+    use crate::viewer::{Against, LessonSource, patterns, picture};
 
     let is_pattern = |path: &&std::path::PathBuf| patterns::is_pattern_file(path);
     for pattern in options.paths.iter().filter(is_pattern) {
@@ -33,6 +33,11 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         && let Some(problem) = problems.into_iter().next()
     {
         return Err(Failure::Input(problem));
+    }
+    if let Some(Against::Changed(changes)) = &options.against
+        && let Some(problem) = picture::apply_all(changes, &mut settings(options))
+    {
+        return Err(Failure::Input(format!("--against: {problem}")));
     }
     let threads = options.framing.threads;
     // Nothing has used the pool before this line, so that it fails only where the system gives no threads.

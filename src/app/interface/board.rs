@@ -16,6 +16,7 @@ use egui::{
 
 use super::board_tiles::{BoardTiles, Grid, caption_lines, list};
 use super::controls::{command_button, tip};
+use super::focus::FocusPanel;
 use super::look::CONTROL;
 use crate::color::ResolveSpace;
 use crate::figure::TableFormat;
@@ -63,13 +64,15 @@ impl BoardCard {
             captions,
         );
         let width = grid.map_or(0.0, Grid::width).max(CONTROLS).min(room.x);
-        let area = Area::new(Id::unique("board"))
+        let id = Id::unique("board");
+        let area = Area::new(id)
             .order(Order::Middle)
             .fixed_pos(free.shrink(MARGIN).right_bottom())
             .pivot(Align2::RIGHT_BOTTOM)
             .constrain_to(free)
             .fade_in(false)
             .show(ui.ctx(), |ui| {
+                FocusPanel::Board.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(width);
                     let top = ui.cursor().top();

@@ -424,7 +424,7 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
                     area = area.vertical_scroll_offset(0.0);
                 }
                 area.show(ui, |ui| {
-                    way = start::ways(ui, viewer, columns);
+                    way = start::ways(ui, viewer, columns).taken;
                     ui.add_space(8.0);
                     let (left, right) = Group::ALL.split_at(if columns == 2 { 4 } else { Group::ALL.len() });
                     ui.columns(columns, |columns| {

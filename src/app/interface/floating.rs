@@ -11,6 +11,7 @@ use egui::{pos2, vec2};
 
 use super::controls::{command_button, tip};
 use super::document::{AS_BEFORE, failed_line};
+use super::focus::FocusPanel;
 use super::look::{self, CONTROL};
 use super::pin;
 use super::places::{card_area, insets, points};
@@ -186,13 +187,15 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let text = viewer.scene_list().words().filter(|_| viewer.chrome().about())?;
     let (corner, size) = place_of_words(ui, viewer, free, text);
-    let area = Area::new(Id::unique("words"))
+    let id = Id::unique("words");
+    let area = Area::new(id)
         .order(Order::Middle)
         .fixed_pos(corner.pos_in_rect(&free.shrink(TEXT_MARGIN)))
         .pivot(corner)
         .constrain_to(free)
         .fade_in(false)
         .show(ui.ctx(), |ui| {
+            FocusPanel::Words.head_of_area(ui, id);
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_width(size.x);
                 ui.horizontal(|ui| {

@@ -4,7 +4,9 @@
 //! Every panel begins with a head that is not to be seen and can have the focus, as `Sense::focusable_noninteractive` is for:
 //! from there Tab finds the panel's first control.
 
-use egui::{Color32, Context, CornerRadius, Id, Order, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
+use egui::{
+    Color32, Context, CornerRadius, Id, LayerId, Order, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+};
 
 use super::look;
 use crate::viewer::{Key, KeyPress, Modifiers};
@@ -20,15 +22,23 @@ pub(super) enum FocusPanel {
     Comparison,
     Side,
     Status,
+    Words,
+    Board,
+    Profile,
+    Spectrum,
 }
 
 impl FocusPanel {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 9] = [
         Self::Lesson,
         Self::Explanation,
         Self::Comparison,
         Self::Side,
         Self::Status,
+        Self::Words,
+        Self::Board,
+        Self::Profile,
+        Self::Spectrum,
     ];
 
     fn name(self) -> &'static str {
@@ -38,6 +48,10 @@ impl FocusPanel {
             Self::Comparison => "Panel: comparison",
             Self::Side => "Panel: settings",
             Self::Status => "Panel: status",
+            Self::Words => "Panel: scene's words",
+            Self::Board => "Panel: board",
+            Self::Profile => "Panel: edge profile",
+            Self::Spectrum => "Panel: spectrum",
         }
     }
 
@@ -48,27 +62,59 @@ impl FocusPanel {
     /// Begins the panel: to be called before anything else in it.
     pub(super) fn head(self, ui: &Ui) {
         let whole = ui.max_rect().expand(f32::from(look::MARGIN)).intersect(ui.clip_rect());
+        self.place_head(ui, whole);
+    }
+
+    /// Begins what floats over the picture in the area of this id. It has no place in the first pass, which finds its size.
+    pub(super) fn head_of_area(self, ui: &Ui, area: Id) {
+        if let Some(whole) = ui.ctx().memory(|memory| memory.area_rect(area)) {
+            self.place_head(ui, whole);
+        }
+    }
+
+    fn place_head(self, ui: &Ui, whole: Rect) {
         let response = ui.interact(whole, self.id(), Sense::focusable_noninteractive());
         response.widget_info(|| WidgetInfo::labeled(Role::Pane, true, self.name()));
     }
 
     /// Where the panel was in the last pass; `None` while it is not to be seen.
-    fn place(self, ctx: &Context) -> Option<Rect> {
-        ctx.read_response(self.id()).map(|response| response.rect)
+    fn place(self, ctx: &Context) -> Option<Place> {
+        ctx.read_response(self.id()).map(Place::of)
+    }
+}
+
+/// Where a control or a panel is: what floats lies over the places of others.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    layer: LayerId,
+    rect: Rect,
+}
+
+impl Place {
+    #[expect(clippy::needless_pass_by_value, reason = "for `map`")]
+    fn of(response: Response) -> Self {
+        Self {
+            layer: response.layer_id,
+            rect: response.rect,
+        }
+    }
+
+    fn holds(self, other: Self) -> bool {
+        self.layer == other.layer && self.rect.contains(other.rect.center())
     }
 }
 
 /// Gives the focus to the head of the next panel, or of the one before; behind the last the picture has the keys again.
 pub(super) fn step(ctx: &Context, back: bool) {
-    let mut panels: Vec<(FocusPanel, Rect)> = FocusPanel::ALL
+    let mut panels: Vec<(FocusPanel, Place)> = FocusPanel::ALL
         .into_iter()
         .filter_map(|panel| Some((panel, panel.place(ctx)?)))
         .collect();
     if back {
         panels.reverse();
     }
-    let now = focused(ctx).map(|place| place.center());
-    let next = match now.and_then(|at| panels.iter().position(|(_, place)| place.contains(at))) {
+    let now = focused(ctx);
+    let next = match now.and_then(|now| panels.iter().position(|(_, place)| place.holds(now))) {
         Some(at) => panels.get(at + 1),
         None => panels.first(),
     };
@@ -88,9 +134,16 @@ pub(super) fn leave(ctx: &Context) {
 }
 
 /// Where what has the focus lies; `None` while the picture has the keys.
-fn focused(ctx: &Context) -> Option<Rect> {
+fn focused(ctx: &Context) -> Option<Place> {
     let id = ctx.memory(egui::Memory::focused)?;
-    ctx.read_response(id).map(|response| response.rect)
+    ctx.read_response(id).map(Place::of)
+}
+
+/// The focus keeps to the controls of this layer, of which this is the first.
+pub(super) fn keep_in(ctx: &Context, layer: LayerId, first: Id) {
+    if focused(ctx).is_some_and(|place| place.layer != layer) {
+        ctx.memory_mut(|memory| memory.request_focus(first));
+    }
 }
 
 /// Whether a panel wants this key: those that go from control to control and press them, while one has the focus.
@@ -117,8 +170,8 @@ pub(super) fn outline(ctx: &Context) {
             || (ctx.global_style().visuals.selection.bg_fill, Color32::WHITE),
             |ground| (Color32::from_rgb(120, 178, 255), ground),
         );
-    let painter = ctx.layer_painter(egui::LayerId::new(Order::Tooltip, Id::unique("focus")));
-    let place = place.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
+    let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, Id::unique("focus")));
+    let place = place.rect.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
     for (width, color) in [(2.0 * OUTLINE, ground), (OUTLINE, accent)] {
         painter.rect_stroke(
             place,

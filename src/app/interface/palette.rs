@@ -262,6 +262,7 @@ mod tests {
             ("rotate 33", "33"),
             ("seed of random patterns 7", "7"),
             ("Zoom by 3 100,100", "3 100,100"),
+            ("Go to pixel 5,5", "5,5"),
             ("rate ", ""),
         ] {
             let (rest, found) = find(text, &viewer);

@@ -16,6 +16,7 @@ use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, Ri
 use super::controls::{choice, tip};
 use super::corner::{APART, CardCorner, below_title};
 use super::floating::things;
+use super::focus::FocusPanel;
 use super::look::CONTROL;
 use super::profile_plot;
 use crate::compare::{Edge, ProfileChannel};
@@ -102,13 +103,15 @@ impl ProfileCard {
         };
         let corner = self.choose(ui, viewer, room, size);
         let mut pixel = None;
-        let area = Area::new(Id::unique("edge profile"))
+        let id = Id::unique("edge profile");
+        let area = Area::new(id)
             .order(Order::Middle)
             .fixed_pos(corner.pos_in_rect(&room))
             .pivot(corner)
             .constrain_to(free)
             .fade_in(false)
             .show(ui.ctx(), |ui| {
+                FocusPanel::Profile.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(width);
                     head(ui, commands);

@@ -17,6 +17,7 @@ use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichTex
 use super::controls::{choice, tip};
 use super::corner::{CardCorner, below_title};
 use super::floating::things;
+use super::focus::FocusPanel;
 use super::look::CONTROL;
 use super::spectrum_plot::SpectrumPlot;
 use crate::compare::{Band, DECIBELS, SpectrumOf, SpectrumReading, scale_color};
@@ -69,13 +70,15 @@ impl SpectrumCard {
         let side = SIDES.into_iter().find(fits).unwrap_or(SIDES[3]);
         let corner = self.corner.choose(size_of(side), room, in_way);
         let mut reading = None;
-        let area = Area::new(Id::unique("spectrum"))
+        let id = Id::unique("spectrum");
+        let area = Area::new(id)
             .order(Order::Middle)
             .fixed_pos(corner.pos_in_rect(&room))
             .pivot(corner)
             .constrain_to(free)
             .fade_in(false)
             .show(ui.ctx(), |ui| {
+                FocusPanel::Spectrum.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(side);
                     head(ui, commands);

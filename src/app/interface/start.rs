@@ -1,8 +1,9 @@
 //! The first minute: what the program is for in one sentence, and four ways on. A card over the first scene has them, and
 //! the help.
 
-use egui::{Align, Button, Frame, Id, Layout, Margin, Rect, RichText, Ui, vec2};
+use egui::{Align, Button, Frame, Id, LayerId, Layout, Margin, Order, Rect, Response, RichText, Ui, vec2};
 
+use super::focus;
 use super::places::card_area;
 use crate::viewer::{
     Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Toggle, Viewer,
@@ -27,6 +28,15 @@ struct Way {
     does: Vec<Command>,
 }
 
+/// What became of the ways.
+#[derive(Debug, Default)]
+pub(super) struct Ways {
+    /// What the way does that was taken.
+    pub(super) taken: Vec<Command>,
+    /// The control of the first.
+    first: Option<Id>,
+}
+
 /// The card, while it is to be seen.
 pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
     if !viewer.chrome().start_card() || viewer.chrome().dialog().is_some() {
@@ -47,7 +57,7 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
         // Panels take clicks that are no commands of their own, such as that on the menu.
         commands.push(Command::Window(WindowCommand::StartCard(Toggle::Off)));
     }
-    let way = card_area("start card", free.center(), free)
+    let ways = card_area("start card", free.center(), free)
         .show(ui.ctx(), |ui| {
             let frame = Frame::popup(ui.style()).inner_margin(Margin::same(MARGIN));
             frame
@@ -57,41 +67,47 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
                     ui.add_space(2.0);
                     ui.label(PURPOSE);
                     ui.add_space(8.0);
-                    let way = ways(ui, viewer, 1);
+                    let ways = ways(ui, viewer, 1);
                     ui.add_space(6.0);
                     ui.label(
-                        RichText::new("Any key, or a click beside it, closes this card; ? brings the ways back.")
+                        RichText::new("Tab goes through the ways. Any other key, or a click beside it, closes this card; ? brings them back.")
                             .weak()
                             .small(),
                     );
-                    way
+                    ways
                 })
                 .inner
         })
         .inner;
-    commands.extend(way);
+    if let Some(first) = ways.first {
+        let layer = LayerId::new(Order::Middle, Id::unique("start card"));
+        focus::keep_in(ui.ctx(), layer, first);
+    }
+    commands.extend(ways.taken);
 }
 
-/// The ways side by side in columns; returns the one that was taken.
-pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Vec<Command> {
-    let mut taken = Vec::new();
+/// The ways side by side in columns.
+pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Ways {
+    let mut found = Ways::default();
     let gap = ui.spacing().item_spacing.x;
     let width = ((ui.available_width() - gap * (columns - 1) as f32) / columns as f32).floor();
     let ways = ways_of(viewer);
     for row in ways.chunks(columns) {
         ui.horizontal(|ui| {
             for way in row {
-                if button(ui, way, width) {
-                    taken.clone_from(&way.does);
+                let button = button(ui, way, width);
+                if button.clicked() {
+                    found.taken.clone_from(&way.does);
                 }
+                found.first.get_or_insert(button.id);
             }
         });
     }
-    taken
+    found
 }
 
-/// One way, with what to expect below its name. True when it was pressed.
-fn button(ui: &mut Ui, way: &Way, width: f32) -> bool {
+/// One way, with what to expect below its name.
+fn button(ui: &mut Ui, way: &Way, width: f32) -> Response {
     let size = vec2(width, HEIGHT);
     let button = ui.add(Button::new("").min_size(size)).accessible_name(way.name);
     let room = button.rect.shrink2(vec2(10.0, 3.0));
@@ -111,7 +127,7 @@ fn button(ui: &mut Ui, way: &Way, width: f32) -> bool {
             .truncate()
             .sense(egui::Sense::empty()),
     );
-    button.clicked()
+    button
 }
 
 /// The ways that are open: the study is one of the gallery.

@@ -12,11 +12,17 @@ impl Session {
         if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
             return None;
         }
-        let in_card = self.viewer.chrome().dialog().is_some();
+        let in_dialog = self.viewer.chrome().dialog().is_some();
+        let in_card = in_dialog || self.viewer.chrome().start_card();
         // Esc closes a card, whatever has the focus in it.
         let by_focus = !(in_card && press.logical == Some(Key::Escape)) && self.interface.takes_key(press);
-        // The picture behind a card has none of the keys that press its buttons.
-        let by_card = in_card && matches!(press.logical, Some(Key::Tab | Key::Space | Key::Enter));
+        // The picture behind a card has none of the keys that press its buttons. Before one of its own has the focus, all keys
+        // but Tab close the start card.
+        let by_card = match press.logical {
+            Some(Key::Tab) => in_card,
+            Some(Key::Space | Key::Enter) => in_dialog,
+            _ => false,
+        };
         let takes = by_focus || by_card;
         if takes {
             return None;

@@ -12,7 +12,7 @@ use super::hands::{key, nodes, session};
 use super::small_windows::right_click;
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, LessonSource, Toggle};
+use crate::viewer::{AbCommand, Against, BoardCommand, LessonSource, ProfileCommand, SpectrumCommand, Toggle};
 
 /// The name of what has the keyboard; `None` for the picture.
 fn focused(session: &mut Session) -> Option<String> {
@@ -41,6 +41,70 @@ fn a_key_goes_through_all_panels_and_back_to_the_picture() {
     assert_eq!(focused(&mut session), nobody, "one back");
     key(&mut session, "Shift+F6");
     assert_eq!(focused(&mut session), expected[3], "and round");
+}
+
+#[test]
+fn the_key_reaches_what_floats_over_the_picture() {
+    for (open, card) in [
+        (Command::Window(WindowCommand::About(Toggle::On)), "scene's words"),
+        (Command::Board(BoardCommand::Show(Toggle::On)), "board"),
+        (Command::Profile(ProfileCommand::Show(Toggle::On)), "edge profile"),
+        (Command::Spectrum(SpectrumCommand::Show(Toggle::On)), "spectrum"),
+    ] {
+        let mut session = session(Vec::new(), [1280, 800]);
+        session.command(open);
+        session.settle();
+        let mut seen = Vec::new();
+        for _ in 0..3 {
+            key(&mut session, "F6");
+            seen.extend(focused(&mut session));
+        }
+        let expected = ["settings", "status", card].map(|name| format!("Panel: {name}"));
+        assert_eq!(seen, expected);
+        key(&mut session, "Tab");
+        let control = focused(&mut session).expect("a control");
+        let place = |session: &mut Session, name: &str| {
+            let mut found = nodes(session).into_iter().filter(|node| node.label() == Some(name));
+            found.next().and_then(|node| node.bounds()).expect("its place")
+        };
+        let [around, button] = [&expected[2], &control].map(|name| place(&mut session, name));
+        assert!(
+            around.contains(button.origin()),
+            "Tab goes into the {card} at {around:?}: {control} at {button:?}"
+        );
+        key(&mut session, "Shift+F6");
+        assert_eq!(
+            focused(&mut session).as_ref(),
+            Some(&expected[1]),
+            "one back from a control of the {card}"
+        );
+    }
+}
+
+#[test]
+fn tab_goes_round_the_ways_of_the_start_card() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
+    session.settle();
+    let mut seen = Vec::new();
+    for _ in 0..5 {
+        key(&mut session, "Tab");
+        session.settle();
+        seen.extend(focused(&mut session));
+    }
+    assert_eq!(seen[0], "Follow a lesson");
+    assert_eq!(seen[3], "Explain a pixel");
+    assert_eq!(seen[4], seen[0], "and round");
+    assert!(!session.viewer.chrome().everything_hidden() && session.viewer.chrome().start_card());
+    key(&mut session, "Enter");
+    session.settle();
+    assert!(session.viewer.lesson().is_some(), "Enter takes the way");
+    session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
+    session.settle();
+    key(&mut session, "Tab");
+    key(&mut session, "Escape");
+    session.settle();
+    assert!(!session.viewer.chrome().start_card(), "Esc closes the card at once");
 }
 
 #[test]

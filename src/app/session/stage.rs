@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{Clock, Session};
 use crate::viewer::script::{Stage, save_window};
-use crate::viewer::{Command, Key, KeyPress, Modifiers, PointerButton};
+use crate::viewer::{Command, Key, KeyPress, MessageKind, Modifiers, PointerButton};
 
 /// Rounds until a picture without a window counts as at rest.
 const MAX_ROUNDS: u32 = 50;
@@ -50,6 +50,14 @@ impl Stage for Session {
 
     fn has_quit(&self) -> bool {
         self.outbox.quit
+    }
+
+    fn problem(&self) -> Option<String> {
+        let failure = self.viewer.scene_list().current().and_then(|entry| entry.failure());
+        let messages = self.viewer.chrome().messages();
+        let mut errors = messages.iter().filter(|message| message.kind == MessageKind::Error);
+        let problem = failure.or_else(|| errors.next().map(|message| message.text.as_str()));
+        problem.map(str::to_owned)
     }
 
     fn key(&mut self, press: KeyPress) {

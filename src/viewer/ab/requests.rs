@@ -10,7 +10,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::{Against, Arrangement, Other};
 use crate::viewer::ab::outside::{OutsidePicture, ReadPicture};
 use crate::viewer::chrome::messages::Messages;
-use crate::viewer::settings::{Settings, Toggle};
+use crate::viewer::settings::{Settings, Toggle, picture};
 use crate::viewer::view::panes::Moved;
 
 /// How what is said of a B of A's settings begins.
@@ -48,8 +48,9 @@ impl Comparison {
             }
             Against::Changed(changes) => {
                 let mut other = *context.settings;
-                let remarks = changes.iter().filter_map(|change| change.apply(&mut other));
-                remarks.for_each(|remark| context.messages.error(remark));
+                if let Some(remark) = picture::apply_all(&changes, &mut other) {
+                    context.messages.error(remark);
+                }
                 self.set_other(Some(Other::with(&other)));
                 self.show_somehow(context);
             }

@@ -52,10 +52,7 @@ impl BoardEntry {
     /// The same with these changes, and in one line what else had to change.
     pub(in crate::viewer) fn changed(self, changes: &[SettingChange]) -> (Self, Option<String>) {
         let mut settings = self.settings();
-        let apply = |settings: &mut Settings| changes.iter().filter_map(|change| change.apply(settings)).last();
-        // Whether a pattern takes a rate is seen once both are there, whichever was named first.
-        apply(&mut settings);
-        let remark = apply(&mut settings);
+        let remark = picture::apply_all(changes, &mut settings);
         (Self::of(&settings), remark)
     }
 

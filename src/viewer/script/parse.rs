@@ -37,6 +37,18 @@ pub struct ScriptStep {
     pub step: Step,
 }
 
+impl ScriptStep {
+    /// What is wrong here, in the script called `name`.
+    pub(super) fn error(&self, name: &str, message: String) -> ScriptError {
+        ScriptError {
+            name: name.to_owned(),
+            line: self.line,
+            column: self.column,
+            message,
+        }
+    }
+}
+
 /// What a user does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
-use super::parse::{Script, ScriptError, ScriptStep, Step};
+use super::parse::{Script, ScriptError, Step};
 use crate::figure::{Destination, save_picture};
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
@@ -31,6 +31,11 @@ pub trait Stage {
 
     /// Whether the program was told to end: later steps are not played.
     fn has_quit(&self) -> bool;
+
+    /// What went wrong and is still told: one line with the cure. Steps go on, so that a script can take a picture of it.
+    fn problem(&self) -> Option<String> {
+        None
+    }
 
     /// Presses and releases a key.
     fn key(&mut self, press: KeyPress) {
@@ -78,22 +83,24 @@ pub trait Stage {
 /// Plays all steps, each after the picture of the one before is finished.
 ///
 /// # Errors
-/// At the first step that fails.
+/// At the first step that cannot be performed; at the end with what a step made go wrong, where the stage still tells it.
 pub fn play(script: &Script, name: &str, stage: &mut dyn Stage) -> Result<(), ScriptError> {
-    for ScriptStep { line, column, step } in &script.steps {
-        if stage.has_quit() {
-            return Ok(());
-        }
-        stage.settle();
-        perform(step, stage).map_err(|message| ScriptError {
-            name: name.to_owned(),
-            line: *line,
-            column: *column,
-            message,
-        })?;
-    }
     stage.settle();
-    Ok(())
+    let mut told = stage.problem();
+    let mut troubled = None;
+    for step in &script.steps {
+        if stage.has_quit() {
+            break;
+        }
+        perform(&step.step, stage).map_err(|message| step.error(name, message))?;
+        stage.settle();
+        let problem = stage.problem();
+        if problem != told {
+            troubled = problem.clone().map(|problem| step.error(name, problem));
+            told = problem;
+        }
+    }
+    troubled.map_or(Ok(()), Err)
 }
 
 /// Performs one step. A window that cannot wait calls this for one step after the other, each time the picture is

@@ -104,6 +104,15 @@ pub(in crate::viewer) fn are_meant(text: &str) -> bool {
         .is_some_and(|(name, _)| find(name).is_some())
 }
 
+/// Changes the settings by all of these; tells in one line what else had to change.
+///
+/// Whether a pattern takes a rate is seen once both are there, whichever was named first.
+pub fn apply_all(changes: &[SettingChange], settings: &mut Settings) -> Option<String> {
+    let mut apply = || changes.iter().filter_map(|change| change.apply(settings)).last();
+    apply();
+    apply()
+}
+
 impl SettingChange {
     /// The setting `option` to this value.
     ///

@@ -253,6 +253,17 @@ fn cli_view_answers_mistakes_too() {
         &["a.svg", "--headless", "--do", "shot a.svg"],
         &["a.svg", ".png"],
     );
+    let rates = ["a.svg", "--headless", "--do", "rate 4; rate 5; rate 9"];
+    refused(folder.path(), &rates, &["--do:1:9: pattern grid takes a square number"]);
+    let against = ["a.svg", "--headless", "--against", "sample-rate 5"];
+    refused(
+        folder.path(),
+        &against,
+        &["--against: pattern grid takes a square number"],
+    );
+    let against = ["a.svg", "--headless", "--against", "sample-rate 5, pattern sobol"];
+    let taken = run(folder.path(), &against);
+    assert!(taken.status.success(), "in any order: {taken:?}");
     let nowhere = [
         "a.svg",
         "--headless",

@@ -86,7 +86,8 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
         Group::Inspector,
     )
     .keys(&[Chord::ctrl('g')])
-    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel))),
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel)))
+    .argument(arguments::PIN),
     spec(
         "explanation",
         "Explanation",

@@ -1,12 +1,15 @@
 //! How far a pixel is from the truth, and which settings bring it nearer: each is tried on this very pixel, by the code that
 //! draws frames.
 
+use std::collections::BTreeSet;
+
 use super::explanation::Question;
-use super::model::{Cure, Explanation, Setting, Truth};
+use super::model::{Causes, Cure, Explanation, Setting, Truth};
 use crate::post::PostProcess;
 use crate::raster::{PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
+use crate::scene::Dialect;
 use crate::texture::{
     Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, PyramidFilter,
 };
@@ -54,6 +57,7 @@ impl Explanation {
             color: true_color,
             distance,
             cures: Vec::new(),
+            causes: Causes::default(),
         };
         // Nothing can bring it nearer by more than it is away.
         if distance > LEAST {
@@ -70,9 +74,41 @@ impl Explanation {
             for cure in &mut truth.cures {
                 let is_other = cure.setting == Setting::Pattern && is_own(settings.pattern);
                 cure.samples = is_other.then_some(settings.sample_rate.samples());
+                let is_of_course = cure.setting == Setting::Rules && question.subject.scene.dialect == Dialect::Course;
+                cure.dialect = is_of_course.then_some(Dialect::Course.name());
+            }
+            if truth.cures.iter().any(|cure| cure.setting == Setting::SampleRate) {
+                truth.causes = self.causes(&nearby, &settings.truth(), &truth);
             }
         }
         Some(truth)
+    }
+
+    /// What the distance from the truth comes of, each cause tried alone: the truth without what the samples miss, and with
+    /// one place of each texture for the whole pixel. `settings` are the truth's.
+    fn causes(&self, nearby: &Nearby<'_>, settings: &RenderSettings, truth: &Truth) -> Causes {
+        let color = |nearby: &Nearby<'_>, settings: &RenderSettings| {
+            let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
+            Some([r, g, b, a])
+        };
+        let by = |left_out: Vec<u32>| {
+            let without = (!left_out.is_empty()).then(|| color(&nearby.without(&left_out), settings));
+            let left = without.flatten().map(|without| distance(self.color, without));
+            left.map_or(0.0, |left| truth.distance - left)
+        };
+        let missed = || self.missed.iter().filter(|missed| self.may_be_seen(missed));
+        let once = RenderSettings {
+            shading: ShadingRate::Centre,
+            ..*settings
+        };
+        Causes {
+            thin: by(missed()
+                .filter(|missed| self.is_thin(missed))
+                .map(|missed| missed.primitive)
+                .collect()),
+            missed: by(missed().map(|missed| missed.primitive).collect()),
+            textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
+        }
     }
 }
 
@@ -117,6 +153,7 @@ impl Truth {
                 color,
                 nearer,
                 samples: None,
+                dialect: None,
             })
         });
         let tried: Vec<Cure> = tried.collect();
@@ -196,11 +233,26 @@ fn is_own(pattern: SamplePattern) -> bool {
 fn patterns(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     let pattern = SamplePattern::Rotated;
     let now = own.pattern.nearest(own.sample_rate);
-    let is_sensible = own.pattern != pattern && pattern.takes(now) && now > SampleRate::ONE;
+    let is_sensible = shares_lines(own) && pattern.takes(now) && now > SampleRate::ONE;
     is_sensible
         .then(|| (pattern.name().to_owned(), RenderSettings { pattern, ..*own }))
         .into_iter()
         .collect()
+}
+
+/// Whether samples of a pixel share columns or rows: those of a grid do, and those of some patterns from files.
+fn shares_lines(own: &RenderSettings) -> bool {
+    match own.pattern {
+        SamplePattern::Grid => true,
+        SamplePattern::Custom(pattern) => {
+            let samples = pattern.samples();
+            [0, 1].into_iter().any(|axis| {
+                let lines: BTreeSet<u8> = samples.iter().map(|sample| sample.place[axis]).collect();
+                lines.len() < samples.len()
+            })
+        }
+        _ => false,
+    }
 }
 
 /// Where colours are computed once: for the covered samples, where that was not so, and for each of them.

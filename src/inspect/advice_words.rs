@@ -17,6 +17,8 @@ const BLURS: f64 = 2.0;
 const WRONG: f64 = 0.2;
 /// Texels between samples from which on some are left out whatever the filter.
 const LEAVES_OUT: f64 = 2.0;
+/// The part of what a setting brings that a reason has to account for.
+const MOSTLY: f64 = 0.5;
 /// A colour of less alpha than this, in levels, lets what is below shine through.
 const OPAQUE: f64 = 254.99;
 
@@ -49,10 +51,10 @@ impl Explanation {
         let texture = self.topmost().and_then(|paint| Some((paint, paint.texture.as_ref()?)));
         match cure.setting {
             Setting::SampleRate => self
-                .thin_parts()
+                .missed_parts(cure)
                 .or_else(|| self.thin_topmost())
                 .or_else(|| self.wrong_coverage())
-                .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture))),
+                .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture, cure))),
             Setting::LevelSampling => texture.and_then(|(paint, texture)| {
                 let blurred = || cure.weighs_area().then(|| texture.blurred_across()).flatten();
                 self.few_of_many(paint, texture).or_else(blurred)
@@ -105,28 +107,40 @@ impl Explanation {
         1.0 / (self.samples.len().max(1) as f64).sqrt()
     }
 
-    /// Whether a primitive passes between the samples, and would be seen if it did not.
-    fn is_thin(&self, missed: &Missed) -> bool {
+    /// Whether a primitive that no sample meets would be seen if one did.
+    pub(super) fn may_be_seen(&self, missed: &Missed) -> bool {
         let hides = |paint: &Paint| {
             paint.primitive > missed.primitive
                 && paint.fragments.len() == self.samples.len()
                 && paint.fragments.iter().all(|fragment| fragment.color[3] >= OPAQUE)
         };
-        missed.width < self.step() && !self.paints.iter().any(hides)
+        !self.paints.iter().any(hides)
     }
 
-    fn thin_parts(&self) -> Option<String> {
+    /// Whether a primitive passes between the samples.
+    pub(super) fn is_thin(&self, missed: &Missed) -> bool {
+        missed.width < self.step()
+    }
+
+    /// What the samples miss, if most of what a setting brings comes of it.
+    fn missed_parts(&self, cure: &Cure) -> Option<String> {
         if self.exact || self.resolve.around.is_some() {
             // Neighbours' samples decide, too: the pixel may show too much of it as well as too little.
             return None;
         }
-        let thin = self.missed.iter().filter(|missed| self.is_thin(missed));
-        let area: f64 = thin.map(|missed| missed.area).sum();
-        (area > 0.0).then(|| {
-            format!(
-                "What is thin passes between the samples here, {} of the pixel: it breaks up.",
-                percent(area.min(1.0))
-            )
+        let causes = self.truth.as_ref()?.causes;
+        let seen = || self.missed.iter().filter(|missed| self.may_be_seen(missed));
+        let area_of = |area: f64| percent(area.min(1.0));
+        if causes.thin >= cure.nearer * MOSTLY {
+            let thin = seen().filter(|missed| self.is_thin(missed));
+            let area = area_of(thin.map(|missed| missed.area).sum());
+            return Some(format!(
+                "What is thin passes between the samples here, {area} of the pixel: it breaks up."
+            ));
+        }
+        (causes.missed >= cure.nearer * MOSTLY).then(|| {
+            let area = area_of(seen().map(|missed| missed.area).sum());
+            format!("No sample meets some of what is here, {area} of the pixel.")
         })
     }
 
@@ -147,13 +161,34 @@ impl Explanation {
     fn wrong_coverage(&self) -> Option<String> {
         let paint = self.topmost()?;
         let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
-        ((part - area).abs() > WRONG).then(|| {
+        ((part - area).abs() > WRONG && self.explains(paint, area)).then(|| {
             format!(
                 "By its samples {} covers {} of the pixel; by area, {}.",
                 paint.name(),
                 percent(part),
                 percent(area)
             )
+        })
+    }
+
+    /// Whether the truth can be a paint's colour over this part of the pixel and some colour over the rest.
+    fn explains(&self, paint: &Paint, area: f64) -> bool {
+        /// Levels that a truth of so many samples, and a paint of several colours, may be away.
+        const ABOUT: f64 = 8.0;
+        if paint.layers > 0 || self.resolve.space == ResolveSpace::Linear.name() {
+            // Elsewhere a mean is no sum of parts.
+            return true;
+        }
+        let shades = || paint.fragments.iter().map(|fragment| fragment.after);
+        let count = shades().count().max(1) as f64;
+        self.truth.as_ref().is_none_or(|truth| {
+            let [.., alpha] = truth.color.map(f64::from);
+            (0..4).all(|channel| {
+                let own = shades().map(|color| color[channel]).sum::<f64>() / count;
+                let whole = f64::from(truth.color[channel]) * if channel < 3 { alpha / 255.0 } else { 1.0 };
+                let rest = whole - area * own;
+                (-ABOUT..=255.0 * (1.0 - area) + ABOUT).contains(&rest)
+            })
         })
     }
 
@@ -170,14 +205,16 @@ impl Explanation {
         covered.len() as f64 / self.samples.len().max(1) as f64
     }
 
-    fn texels_between(&self, texture: &Texture) -> Option<String> {
+    fn texels_between(&self, texture: &Texture, cure: &Cure) -> Option<String> {
         if self.topmost()?.shaded_at.is_some() {
             // One place is read, however many samples there are.
             return None;
         }
         let step = if texture.step == "sample" { 1.0 } else { self.step() };
         let apart = texture.major * step;
-        (texture.reads_base_once() && apart > LEAVES_OUT).then(|| {
+        let causes = self.truth.as_ref().map(|truth| truth.causes);
+        let by_texture = causes.is_none_or(|causes| causes.textures >= cure.nearer * MOSTLY);
+        (texture.reads_base_once() && apart > LEAVES_OUT && by_texture).then(|| {
             format!(
                 "Samples lie about {} texels apart here, and what is between them is not read.",
                 significant(apart)
@@ -208,7 +245,10 @@ impl Explanation {
             .map(|texel| texel.at)
             .collect();
         let is_whole = paint.fragments.len() == self.samples.len();
-        (is_whole && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
+        // A texture that goes on beyond its border may be read whole.
+        let [width, height] = texture.size.map(u64::from);
+        let leaves_out = (read.len() as u64) < width * height;
+        (is_whole && leaves_out && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
             let readers = if self.exact || paint.shaded_at.is_some() {
                 "the one place that is shaded reads"
             } else {
@@ -237,10 +277,10 @@ impl Truth {
             "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
         } else if self.cures.is_empty() {
             format!(
-                "This pixel is within {levels} levels of the truth (256 samples); no setting that was tried brings it nearer by itself."
+                "This pixel is within {levels} of the truth (256 samples); no setting that was tried brings it nearer by more than 1 level by itself."
             )
         } else {
-            format!("This pixel is {levels} levels from the truth (256 samples).")
+            format!("This pixel is {levels} from the truth (256 samples).")
         }
     }
 }
@@ -275,7 +315,10 @@ impl Cure {
     fn words(&self) -> String {
         let value = &self.value;
         let what = match self.setting {
-            Setting::Rules => format!("Rules {value}"),
+            Setting::Rules => match self.dialect {
+                Some(dialect) => format!("Rules {value} with dialect {dialect}"),
+                None => format!("Rules {value}"),
+            },
             Setting::LodLevel => "The level of detail as computed (key M in the window)".to_owned(),
             Setting::LodBias => format!("Bias {value} (keys comma and full stop in the window)"),
             Setting::LevelSampling => format!("Level sampling {value} (key L in the window)"),
@@ -301,13 +344,15 @@ impl Cure {
             }
             Setting::PostProcess => format!("Post-process {value}"),
         };
-        format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
+        format!("{what}: {} nearer to the truth.", levels(self.nearer))
     }
 }
 
 /// Levels with one digit after the point at most.
 fn levels(count: f64) -> String {
-    number((count * 10.0).round() / 10.0)
+    let count = number((count * 10.0).round() / 10.0);
+    let plural = if count == "1" { "" } else { "s" };
+    format!("{count} level{plural}")
 }
 
 impl Texture {
@@ -372,6 +417,8 @@ mod tests {
             taps: 1,
             level_of_detail: Some(major.log2()),
             clamped,
+            bias: 0.0,
+            fixed: false,
             levels: match level_sampling {
                 "linear" => vec![level(3, 0.5), level(4, 0.5)],
                 _ => vec![level(0, 1.0)],

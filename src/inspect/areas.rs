@@ -1,7 +1,7 @@
 //! Pixels that have areas and no samples: what shows in them, and where neighbours let the background through.
 
 use super::model::{Conflation, Explanation, Paint};
-use super::numbers::percent;
+use super::numbers::{counted, percent};
 use crate::render::Explainer;
 
 /// Parts of a pixel that are too small to be told from none.
@@ -15,6 +15,8 @@ const MOST_NEIGHBOURS: usize = 8;
 pub(super) struct AreaShares {
     /// The paints that show, by number, from the topmost down.
     paints: Vec<(usize, f64)>,
+    /// How many paints show less than is told each, and what they show together.
+    small: (usize, f64),
     /// What is below all of them.
     pub(super) background: f64,
 }
@@ -50,8 +52,14 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
     let through = parts
         .iter()
         .map(|number| 1.0 - part(number) * paints[*number].alpha() / 255.0);
-    Some(Conflation {
-        through: through.product(),
+    let through = through.product();
+    let by_opacity = parts
+        .iter()
+        .map(|number| part(number) * (1.0 - paints[*number].alpha() / 255.0))
+        .sum();
+    (through - by_opacity > NOTHING).then_some(Conflation {
+        through,
+        by_opacity,
         paints: parts,
     })
 }
@@ -64,19 +72,31 @@ impl Explanation {
         }
         let mut background = 1.0;
         let mut paints = Vec::new();
+        let mut small = (0, 0.0);
         for (number, paint) in self.paints.iter().enumerate().rev() {
             let share = background * paint.covered.unwrap_or(1.0) * paint.alpha() / 255.0;
             background -= share;
             if share >= NOTHING {
                 paints.push((number, share));
+            } else if share > 0.0 {
+                small = (small.0 + 1, small.1 + share);
             }
         }
-        Some(AreaShares { paints, background })
+        Some(AreaShares {
+            paints,
+            small,
+            background,
+        })
     }
 
     /// The same in one sentence.
     pub(super) fn area_words(&self) -> String {
-        let Some(AreaShares { paints, background }) = self.area_shares() else {
+        let Some(AreaShares {
+            paints,
+            small: (count, small),
+            background,
+        }) = self.area_shares()
+        else {
             return "It holds one colour, made of all that paints it; nothing tells which part shows what.".to_owned();
         };
         let mut shares: Vec<String> = paints
@@ -86,6 +106,9 @@ impl Explanation {
                 Some(format!("{} of {} ({})", percent(*share), number + 1, paint.name()))
             })
             .collect();
+        if small >= NOTHING {
+            shares.push(format!("{} of {}", percent(small), counted(count, "other")));
+        }
         if background >= NOTHING || shares.is_empty() {
             shares.push(format!("{} of the background", percent(background)));
         }
@@ -94,7 +117,11 @@ impl Explanation {
 
     /// Why the background shows between neighbours that cover the pixel together.
     pub(super) fn conflation_words(&self) -> Option<String> {
-        let Conflation { paints, through } = self.conflation.as_ref()?;
+        let Conflation {
+            paints,
+            through,
+            by_opacity,
+        } = self.conflation.as_ref()?;
         let known = || {
             paints
                 .iter()
@@ -105,8 +132,13 @@ impl Explanation {
             .collect();
         let part = |paint: &Paint| paint.covered.unwrap_or(0.0) * paint.alpha() / 255.0;
         let factors: Vec<String> = known().map(|(_, paint)| format!("(1 - {:.3})", part(paint))).collect();
+        let expected = if *by_opacity > 0.0 {
+            format!(", where their opacity alone lets {} through", percent(*by_opacity))
+        } else {
+            String::new()
+        };
         Some(format!(
-            "{} cover all of this pixel together, without overlap, and yet {} = {} of what is below shows through: a seam. Source-over \
+            "{} cover all of this pixel together, without overlap, and yet {} = {} of what is below shows through{expected}: a seam. Source-over \
              takes each area as if it lay anywhere in the pixel (conflation). Samples know who covers them: supersampling has no \
              such seam.",
             names.join(" and "),

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::model::{Around, Explanation, Resolve, Rounding, Taken};
-use super::numbers::number;
+use super::numbers::{counted, number};
 use crate::color::{ResolveSpace, encoded};
 
 /// Neighbours that are told one by one at most: those that add most.
@@ -149,8 +149,8 @@ impl Around {
             let adds = [0, 1, 2, 3].map(|k| others.iter().map(|taken| taken.adds[k]).sum());
             let weight = others.iter().map(|taken| taken.weight).sum();
             lines.push(format!(
-                "{} others  weigh {}, add {}",
-                others.len(),
+                "{}  weigh {}, add {}",
+                counted(others.len(), "other"),
                 part(weight),
                 levels(adds)
             ));

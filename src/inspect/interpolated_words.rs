@@ -1,7 +1,7 @@
 //! What a sample interpolates in words: a place on a ramp, the texels that it reads.
 
 use super::model::{Interpolated, RampStop, Tap, Texel, TileTexel, Wrapped};
-use super::numbers::{cut, hex, number, percent};
+use super::numbers::{counted, cut, hex, number, percent};
 
 /// Points of a texture that are listed at most.
 const MOST_TAPS: usize = 4;
@@ -111,7 +111,7 @@ fn texture_lines(taps: &[Tap], texels: &[Texel]) -> Vec<String> {
         lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));
     }
     if let Some(rest) = taps.len().checked_sub(MOST_TAPS).filter(|rest| *rest > 0) {
-        lines.push(format!("          and {rest} more points"));
+        lines.push(format!("          and {}", counted(rest, "more point")));
     }
     let mut heaviest = texels.to_vec();
     heaviest.sort_by(|a, b| b.weight.abs().total_cmp(&a.weight.abs()));

@@ -42,6 +42,7 @@ pub use model::{
     Around, Conflation, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve,
     Rounding, Sample, Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View, Wrapped,
 };
+pub use numbers::counted;
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use smoothing::{Blended, EdgePattern, PixelSide, Smoothing};
 pub use text::Detail;

@@ -64,6 +64,8 @@ pub struct Conflation {
     pub paints: Vec<usize>,
     /// The part of what is below that shows through all the same.
     pub through: f64,
+    /// The part that shows through by their opacity, wherever they lie.
+    pub by_opacity: f64,
 }
 
 /// How samples became a pixel.
@@ -126,6 +128,20 @@ pub struct Truth {
     pub distance: f64,
     /// The settings that bring it nearer, the best first; each alone.
     pub cures: Vec<Cure>,
+    /// What the distance comes of.
+    #[serde(skip)]
+    pub causes: Causes,
+}
+
+/// By how many levels a pixel would be nearer to the truth if it were not for something: what may be told as the reason.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Causes {
+    /// Primitives that pass between the samples and are thinner than these are apart.
+    pub thin: f64,
+    /// All primitives that cover a part of the pixel and none of its samples.
+    pub missed: f64,
+    /// Textures that differ within the pixel.
+    pub textures: f64,
 }
 
 /// A setting that brings a pixel nearer to the truth.
@@ -142,6 +158,10 @@ pub struct Cure {
     /// How many samples it takes, where the pattern in use brings its own number, which goes with it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
+    /// The dialect that goes with the rules, where the scene is read as the course's: on a command line its rules alone choose
+    /// its dialect, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dialect: Option<&'static str>,
 }
 
 /// The settings that are tried.
@@ -567,6 +587,12 @@ pub struct Texture {
     pub level_of_detail: Option<f64>,
     /// The same clamped to the levels that there are.
     pub clamped: f64,
+    /// What was added to it.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub bias: f64,
+    /// Whether the settings say it, whatever the footprint.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
     /// The levels that are read; those of a ripmap have its numbers.
     pub levels: Vec<Level>,
     /// What each sample weighs, where that is an area instead of texels around points.
@@ -621,6 +647,12 @@ pub struct Pinhole {
     pub corners: [[f64; 2]; 3],
     /// Its edges there.
     pub edges: [Edge; 3],
+}
+
+/// Nothing is added.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// Whether a texture ends at its border.

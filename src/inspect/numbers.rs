@@ -42,7 +42,24 @@ pub(super) fn percent(part: f64) -> String {
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    unsigned_zero(text)
+}
+
+/// A number without the sign of a zero.
+fn unsigned_zero(text: &str) -> String {
+    let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    text.trim_start_matches(if is_zero { "-" } else { "" }).to_owned()
+}
+
+/// A barycentric weight, with four digits after the point.
+pub(super) fn weight(value: f64) -> String {
+    unsigned_zero(&format!("{value:.4}"))
+}
+
+/// So many of something: `1 level`, `2 levels`. The plural of `one` ends in s.
+pub fn counted(count: usize, one: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {one}{plural}")
 }
 
 /// With five digits after the point, cut off and not rounded: what lies before a whole number stays before it.
@@ -53,7 +70,7 @@ pub(super) fn cut(value: f64) -> String {
 /// With three significant digits.
 pub(super) fn significant(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
+        return unsigned_zero(&format!("{value}"));
     }
     let digits = 2.0 - value.abs().log10().floor().clamp(-12.0, 12.0);
     if digits <= 0.0 {
@@ -65,7 +82,7 @@ pub(super) fn significant(value: f64) -> String {
         reason = "clamped to 0..=14"
     )]
     let text = format!("{value:.*}", digits as usize);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    unsigned_zero(text.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// What a document says, at most 200 characters of it and without control characters.
@@ -101,6 +118,7 @@ mod tests {
             (127.5, "127.5"),
             (0.123_456_7, "0.1235"),
             (-0.00001, "0"),
+            (-0.0, "0"),
             (10.0, "10"),
         ] {
             assert_eq!(number(value), expected, "{value}");
@@ -110,10 +128,15 @@ mod tests {
             (0.012_345, "0.0123"),
             (123.45, "123"),
             (-1.5, "-1.5"),
+            (-0.0, "0"),
+            (-1e-20, "0"),
             (1e9, "1000000000"),
         ] {
             assert_eq!(significant(value), expected, "{value}");
         }
+        assert_eq!(weight(-1e-9), "0.0000", "a weight");
+        assert_eq!(weight(-0.25), "-0.2500", "a weight");
+        assert_eq!([counted(1, "place"), counted(2, "place")], ["1 place", "2 places"]);
         assert_eq!(percent(0.375), "37.5 %", "a part");
         assert_eq!(percent(1e-7), "under 0.01 %", "a small part");
     }

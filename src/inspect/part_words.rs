@@ -1,7 +1,7 @@
 //! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
 
 use super::area_use::AreaUse;
-use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, Verdict};
+use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, Verdict, View};
 use super::numbers::{number, percent, significant};
 use crate::color::{BlendMode, ResolveSpace};
 use crate::plain;
@@ -152,32 +152,43 @@ impl Paint {
     }
 }
 
+/// How fragments of a pixel are composited.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Composited {
+    /// By exact areas: the pixel has no samples.
+    pub(super) exact: bool,
+    /// Whether areas are mixed in linear light.
+    pub(super) in_light: bool,
+}
+
 impl Fragment {
     /// What it did, as one of a paint's fragments.
-    pub(super) fn lines(&self, paint: &Paint) -> Vec<String> {
+    pub(super) fn lines(&self, paint: &Paint, how: Composited) -> Vec<String> {
+        let place = if how.exact { "pixel" } else { "sample" };
         match &paint.shape {
             _ if paint.in_mask && !paint.shape.is_layer_mark() => vec![
                 format!("colour    {}", color(self.color)),
                 "counts for the clip path or mask, and is not seen itself".to_owned(),
             ],
             Shape::EndMask { by: "luminance" } => {
-                let mut lines = self.mask_lines();
+                let mut lines = self.mask_lines(place);
                 if (1..255).contains(&self.kept_level()) {
                     lines.push("weighed   0.2125 red + 0.7154 green + 0.0721 blue of the mask".to_owned());
                 }
                 lines
             }
-            Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(),
+            Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(place),
             Shape::EndLayer { blend: Some(blend), .. } => self.blend_lines(blend),
             _ => match paint.covered.filter(|covered| *covered < 1.0) {
-                Some(covered) => self.area_lines(covered),
+                Some(covered) => self.area_lines(covered, how),
                 None => self.over_lines(),
             },
         }
     }
 
     /// How it was composited by a part of the pixel's area.
-    fn area_lines(&self, covered: f64) -> Vec<String> {
+    fn area_lines(&self, covered: f64, how: Composited) -> Vec<String> {
+        let light = if how.in_light { ", mixed in linear light" } else { "" };
         let alpha = self.color[3] / 255.0;
         vec![
             format!("colour    {}", color(self.color)),
@@ -187,7 +198,7 @@ impl Fragment {
                 alpha * covered
             ),
             format!("over      {}", color(self.before)),
-            format!("gives     {}", color(self.after)),
+            format!("gives     {}{light}", color(self.after)),
         ]
     }
 
@@ -198,16 +209,16 @@ impl Fragment {
     }
 
     /// What a clip path or mask leaves of the sample.
-    fn mask_lines(&self) -> Vec<String> {
+    fn mask_lines(&self, place: &str) -> Vec<String> {
         let kept = self.color[3] / 255.0;
         if self.before[3] <= 0.0 {
-            return vec!["finds nothing on this sample: there is nothing to take".to_owned()];
+            return vec![format!("finds nothing on this {place}: there is nothing to take")];
         }
         if kept <= 0.0 {
-            return vec!["takes this sample away: nothing of it is left".to_owned()];
+            return vec![format!("takes this {place} away: nothing of it is left")];
         }
         if kept >= 1.0 {
-            return vec!["leaves this sample as it was".to_owned()];
+            return vec![format!("leaves this {place} as it was")];
         }
         vec![
             format!("keeps     {} of {}", percent(kept), color(self.before)),
@@ -287,6 +298,23 @@ impl Paint {
     }
 }
 
+impl Paint {
+    /// Whether its corners are those of a piece that clipping left of a triangle, whose own weights are interpolated by.
+    pub(super) fn is_clipped(&self) -> bool {
+        /// The part of a weight that rounding may change.
+        const ROUNDING: f64 = 1e-3;
+        let Some(View::Triangle { edges, weights, .. }) = self.views.first().filter(|_| self.shaded_at.is_none())
+        else {
+            return false;
+        };
+        let [ab, bc, ca] = [0, 1, 2].map(|edge| edges[edge].value as f64);
+        let twice_area = ab + bc + ca;
+        let of_corners = [bc, ca, ab].map(|opposite| opposite / twice_area);
+        let differ = |(own, weight): (f64, &f64)| (own - weight).abs() > ROUNDING * (1.0 + own.abs());
+        twice_area != 0.0 && of_corners.into_iter().zip(weights).any(differ)
+    }
+}
+
 impl Texture {
     /// In which values its coarser levels were averaged.
     pub fn averaged_in(&self) -> ResolveSpace {
@@ -338,6 +366,30 @@ impl Texture {
         own + asked
     }
 
+    /// The level of detail before it is clamped, and where it is from.
+    fn detail_words(&self) -> String {
+        let Some(lod) = self.level_of_detail else {
+            return if self.major > 0.0 {
+                format!("none, as {} of the footprint is 0", self.extent_words())
+            } else {
+                "none (no change)".to_owned()
+            };
+        };
+        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 || self.area.is_some() {
+            String::new()
+        } else {
+            format!(" by {}", self.extent_words())
+        };
+        match self.bias {
+            _ if self.fixed => format!("{lod:.3} as the settings say"),
+            bias if bias != 0.0 => {
+                let (sign, size) = if bias < 0.0 { ("-", -bias) } else { ("+", bias) };
+                format!("{:.3}{by} {sign} {} of bias = {lod:.3}", lod - bias, number(size))
+            }
+            _ => format!("{lod:.3}{by}"),
+        }
+    }
+
     pub(super) fn lines(&self) -> Vec<String> {
         let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
         let [width, height] = self.size;
@@ -368,17 +420,11 @@ impl Texture {
             lines.push(format!("anisotropy  {} taps along the longer side", self.taps));
         }
         lines.extend(self.area.as_ref().map(AreaUse::words));
-        let computed = self
-            .level_of_detail
-            .map_or("none (no change)".to_owned(), |lod| format!("{lod:.3}"));
-        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 || self.area.is_some() {
-            String::new()
-        } else {
-            format!(" by {}", self.extent_words())
-        };
         lines.push(format!(
-            "level of detail  {computed}{by}, clamped {:.3}; level sampling {}",
-            self.clamped, self.level_sampling
+            "level of detail  {}, clamped {:.3}; level sampling {}",
+            self.detail_words(),
+            self.clamped,
+            self.level_sampling
         ));
         let levels: Vec<String> = self
             .levels

@@ -81,7 +81,10 @@ impl Explanation {
         };
         let mut lines: Vec<String> = places.iter().take(MOST_PLACES).map(line).collect();
         if places.len() > MOST_PLACES {
-            lines.push(format!("So are those of {} other places.", places.len() - MOST_PLACES));
+            lines.push(match places.len() - MOST_PLACES {
+                1 => "So are those of one other place.".to_owned(),
+                others => format!("So are those of {others} other places."),
+            });
         }
         lines
     }

@@ -112,11 +112,25 @@ impl Smoothing {
             return lines;
         }
         let parts: Vec<String> = self.blended.iter().map(|part| self.part(part)).collect();
+        lines.extend(self.left_out());
         lines.push(format!("{} = {}", parts.join(" + "), channels(self.after)));
         lines.push(
             "How much is blended in is guessed from the form of the edges: no sample was taken there.".to_owned(),
         );
         lines
+    }
+
+    /// Why sides with a weight are not blended: SMAA blends across or down, whichever weighs more.
+    fn left_out(&self) -> Option<String> {
+        let is_blended = |side: &PixelSide| self.blended.iter().any(|part| part.pixel == side.side);
+        let left_out = self.sides.iter().filter(|side| side.weight > 0.0 && !is_blended(side));
+        let left_out: Vec<&str> = left_out.map(PixelSide::place).collect();
+        (!left_out.is_empty()).then(|| {
+            format!(
+                "What lies {} is left out: a pixel is blended along one axis only, the one with the greatest weight.",
+                left_out.join(" and ")
+            )
+        })
     }
 
     fn why_nothing(&self) -> &'static str {

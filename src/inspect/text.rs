@@ -157,7 +157,9 @@ impl Explanation {
                 let [x, y] = sample.position;
                 format!("({}, {}) {}", number(x), number(y), word(sample.seen))
             };
-            return vec![self.samples.iter().map(place).collect::<Vec<_>>().join("  ")];
+            let mut lines = vec![self.samples.iter().map(place).collect::<Vec<_>>().join("  ")];
+            lines.extend(self.background_legend());
+            return lines;
         };
         let words: Vec<String> = self.samples.iter().map(|sample| word(sample.seen)).collect();
         let width = words.iter().map(String::len).max().unwrap_or(1);
@@ -168,10 +170,14 @@ impl Explanation {
                 format!("  {}", padded.join(" "))
             })
             .collect();
-        if words.iter().any(|word| word == ".") {
-            lines.push("(. is the background)".to_owned());
-        }
+        lines.extend(self.background_legend());
         lines
+    }
+
+    /// What the mark of samples says that nothing is painted on.
+    fn background_legend(&self) -> Option<String> {
+        let any = self.samples.iter().any(|sample| sample.seen.is_none());
+        any.then(|| "(. is the background)".to_owned())
     }
 }
 

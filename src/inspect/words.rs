@@ -2,8 +2,9 @@
 //! these lines.
 
 use super::model::{Explanation, Fragment, Paint, Shape, Source, View};
-use super::numbers::{hex, number, percent, runs};
-use super::part_words::color;
+use super::numbers::{hex, number, percent, runs, weight};
+use super::part_words::{Composited, color};
+use crate::color::ResolveSpace;
 
 /// Why a fragment is not seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -212,6 +213,10 @@ impl Explanation {
         if let Shape::Triangle { corners } = &found.shape {
             let corners = corners.map(|[x, y]| format!("({}, {})", number(x), number(y)));
             lines.push(format!("corners A {}  B {}  C {}", corners[0], corners[1], corners[2]));
+            if found.is_clipped() {
+                let words = "these are of a piece: the triangle reaches too far beyond the frame and was clipped";
+                lines.push(words.to_owned());
+            }
         }
         lines.extend(found.server_lines());
         lines
@@ -269,6 +274,7 @@ impl Explanation {
                         .collect();
                     match lost.len() {
                         0 => String::new(),
+                        1 if count == 1 => format!("; it is {what}"),
                         lost if lost == count => format!("; all are {what}"),
                         _ => format!("; {what} on {}", runs(&lost)),
                     }
@@ -339,7 +345,13 @@ impl Explanation {
                 }
                 lines.extend(found.shaded_line());
                 let [a, b, c] = weights;
-                lines.push(format!("weights   A {a:.4}  B {b:.4}  C {c:.4}"));
+                let of = if found.is_clipped() {
+                    ", of the whole triangle"
+                } else {
+                    ""
+                };
+                let [a, b, c] = [a, b, c].map(|value| weight(*value));
+                lines.push(format!("weights   A {a}  B {b}  C {c}{of}"));
                 lines.extend(value.lines());
             }
             Some(View::Polygon { winding, value }) => {
@@ -366,7 +378,13 @@ impl Explanation {
         }
         match self.fragment(paint, sample) {
             Some(fragment) => {
-                lines.extend(fragment.lines(found));
+                lines.extend(fragment.lines(
+                    found,
+                    Composited {
+                        exact: self.exact,
+                        in_light: self.resolve.space == ResolveSpace::Linear.name(),
+                    },
+                ));
                 lines.extend(self.unseen(paint, sample).map(|why| match why {
                     Unseen::TakenBy(mask) => format!("and is taken away by {}", self.paint_title(mask)),
                     Unseen::Transparent => "and shows nothing of itself".to_owned(),

@@ -44,6 +44,24 @@ impl<'a> Nearby<'a> {
         }
     }
 
+    /// The same without some of the primitives, given by their indices.
+    #[must_use]
+    pub fn without(&self, left_out: &[u32]) -> Self {
+        let kept = |primitives: &[u32]| {
+            let kept = primitives.iter().filter(|index| !left_out.contains(*index));
+            kept.copied().collect::<Vec<u32>>()
+        };
+        Self {
+            primitives: kept(&self.primitives),
+            around: self
+                .around
+                .get()
+                .map(|around| kept(around))
+                .map_or_else(OnceLock::new, OnceLock::from),
+            ..*self
+        }
+    }
+
     /// How much there is to draw each time, in corners.
     pub fn work(&self) -> usize {
         let corners = |index: &u32| match &self.scene.primitives[*index as usize].kind {

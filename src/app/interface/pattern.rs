@@ -19,6 +19,7 @@ use egui::{StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 use super::controls::row;
 use super::modal::{beside, modal};
 use super::{look, sampling};
+use crate::inspect::counted;
 use crate::raster::{PatternStatistics, PowerSpectrum, SamplePattern, SampleRate, Seed};
 use crate::viewer::{Command, PictureSetting, Viewer, WindowCommand, picture};
 
@@ -250,11 +251,6 @@ fn numbers(ui: &mut Ui, statistics: &PatternStatistics) {
     for (label, value, tip) in lines {
         row(ui, label, |ui| ui.label(value).on_hover_text(tip));
     }
-}
-
-/// A number of things.
-fn counted(number: usize, thing: &str) -> String {
-    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
 /// A spectrum as a picture: random points are mid-grey, twice their power and more is white.

@@ -26,6 +26,17 @@ const ANOTHER: f64 = 0.5;
 /// Plateaus that are nearer to each other, in levels of 255, are no edge.
 const LEAST_STEP: f64 = 0.5;
 
+/// How often these parts of the way between two plateaus come from a quarter of it or less to three quarters or more, and back.
+fn swings(parts: &[f64]) -> usize {
+    let sides = parts.iter().filter_map(|part| match part {
+        part if *part <= 0.25 => Some(false),
+        part if *part >= 0.75 => Some(true),
+        _ => None,
+    });
+    let sides: Vec<bool> = sides.collect();
+    sides.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
 /// What of a colour is plotted and measured, as it looks on white paper, in levels of 0 to 255.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ProfileChannel {
@@ -86,6 +97,8 @@ pub struct Edge {
     pub overshoot: f64,
     /// How far the darkest is below the darker one.
     pub undershoot: f64,
+    /// How often the line goes from about one plateau to about the other, there and back.
+    pub swings: usize,
 }
 
 impl Edge {
@@ -94,9 +107,10 @@ impl Edge {
         self.rise[1] - self.rise[0]
     }
 
-    /// Whether it seems to be the only one: no value is farther beyond both plateaus than filters ring.
+    /// Whether it seems to be the only one: the line goes from one plateau to the other once, and no value is farther beyond both
+    /// than filters ring.
     pub fn is_alone(&self) -> bool {
-        self.overshoot.max(self.undershoot) < ANOTHER
+        self.swings <= 1 && self.overshoot.max(self.undershoot) < ANOTHER
     }
 }
 
@@ -160,6 +174,7 @@ impl Profile {
             rise: self.rise(&parts)?,
             overshoot,
             undershoot,
+            swings: swings(&parts),
         })
     }
 
@@ -267,6 +282,10 @@ mod tests {
         is(found.undershoot, 0.2, "below the darker one");
         assert!(found.is_alone(), "as filters ring");
         assert!(!edge(&[0, 0, 0, 90, 40, 40, 40, 40]).is_alone(), "up and down again");
+        assert!(
+            !edge(&[0, 0, 0, 0, 200, 0, 0, 200, 200, 200, 200, 200]).is_alone(),
+            "a bar before it, no lighter than what is behind"
+        );
         let down: Vec<u8> = grays.iter().rev().copied().collect();
         is(edge(&down).overshoot, 0.1, "backwards, above");
         is(edge(&down).undershoot, 0.2, "backwards, below");

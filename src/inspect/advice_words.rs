@@ -163,7 +163,7 @@ impl Explanation {
         let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
         ((part - area).abs() > WRONG && self.explains(paint, area)).then(|| {
             format!(
-                "By its samples {} covers {} of the pixel; by area, {}.",
+                "By its samples the {} covers {} of the pixel; by area, {}.",
                 paint.name(),
                 percent(part),
                 percent(area)

@@ -16,7 +16,7 @@ use egui::{
 
 use super::board_tiles::{BoardTiles, Grid, caption_lines, list};
 use super::controls::{command_button, tip};
-use super::focus::FocusPanel;
+use super::focus::{self, FocusPanel};
 use super::look::CONTROL;
 use crate::color::ResolveSpace;
 use crate::figure::TableFormat;
@@ -249,7 +249,7 @@ fn few<T: Copy + PartialEq>(ui: &mut Ui, (name, id): (&str, &str), current: T, v
 
 /// A list of settings, of which one fills the board.
 fn vary(ui: &mut Ui, commands: &mut Vec<Command>) {
-    ComboBox::from_id_salt("vary on the board")
+    let list = ComboBox::from_id_salt("vary on the board")
         .width(70.0)
         .selected_text("Vary \u{2026}")
         .height(320.0)
@@ -264,4 +264,5 @@ fn vary(ui: &mut Ui, commands: &mut Vec<Command>) {
         .response
         .on_hover_text(tip("board-vary"))
         .accessible_name("Vary on the board");
+    focus::note_opener(&list);
 }

@@ -4,6 +4,7 @@ use egui::{
     Align, Button, Color32, ComboBox, Key, Layout, RectAlign, Response, RichText, TextStyle, Tooltip, Ui, vec2,
 };
 
+use super::focus;
 use super::look::CONTROL;
 use crate::viewer::{CommandSpec, commands};
 
@@ -111,7 +112,7 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
     let shown = values.iter().find(|offered| offered.value == current);
     let shown = shown.map_or("", |offered| offered.text);
     let mut chosen = None;
-    ComboBox::from_id_salt(name)
+    let list = ComboBox::from_id_salt(name)
         .width(ui.available_width())
         .selected_text(fitted(ui, shown, ui.available_width() - ARROW))
         .truncate()
@@ -130,6 +131,7 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
         .response
         .on_hover_text(tip)
         .accessible_name(name.to_owned());
+    focus::note_opener(&list);
     chosen
 }
 

@@ -110,7 +110,9 @@ impl ExplanationPanel {
         lines(ui, &explanation.pixel_lines());
         other_view(ui, viewer, commands);
         against(ui, viewer, explanation);
+        // A report says where its keys are; here that goes without saying.
         let help = explanation.help_lines();
+        let help: Vec<String> = help.iter().map(|line| line.replace(" in the window)", ")")).collect();
         if !help.is_empty() {
             section(ui, "hints", "What would help", true, |ui| {
                 lines(ui, &help);

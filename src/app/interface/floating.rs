@@ -142,7 +142,7 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
 /// Why there is nothing to see, where that is the view's doing.
 fn nothing_to_see(viewer: &Viewer) -> Option<&'static str> {
     if !viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
-        return Some("the canvas lies outside of what is free of the window");
+        return Some("the canvas lies outside the free part of the window");
     }
     let is_moved = viewer.scene_list().view_is_moved();
     let is_whole = viewer.frames().preview().is_none() && viewer.ab().arrangement() == Arrangement::Alone;

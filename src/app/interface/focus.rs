@@ -124,6 +124,28 @@ pub(super) fn step(ctx: &Context, back: bool) {
     }
 }
 
+/// Where the button is noted that opened the last list.
+fn opener() -> Id {
+    Id::unique("opener of a list")
+}
+
+/// Notes the button of a list that a click opens.
+pub(super) fn note_opener(button: &Response) {
+    if button.clicked() {
+        button.ctx.data_mut(|data| data.insert_temp(opener(), button.id));
+    }
+}
+
+/// Gives the focus to the button of the list that is open, so that keys go from there into the list; not where something has it
+/// already.
+pub(super) fn enter_list(ctx: &Context) {
+    if focused(ctx).is_none()
+        && let Some(button) = ctx.data(|data| data.get_temp(opener()))
+    {
+        ctx.memory_mut(|memory| memory.request_focus(button));
+    }
+}
+
 /// Takes the focus from panels.
 pub(super) fn leave(ctx: &Context) {
     ctx.memory_mut(|memory| {

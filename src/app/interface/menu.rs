@@ -7,8 +7,7 @@ use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, RectAlign, RichText, ScrollArea, Tooltip, Ui};
 
 use super::controls::tip_beside;
-use super::look;
-use super::standing;
+use super::{focus, look, standing};
 use crate::plain;
 use crate::viewer::{
     Action, Argument, Command, CommandSpec, Group, PictureSetting, SceneCommand, Viewer, WindowCommand, commands,
@@ -42,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
             }
         });
     });
-    response.accessible_name("Menu");
+    focus::note_opener(&response.accessible_name("Menu"));
     asks
 }
 

@@ -121,6 +121,8 @@ pub(super) struct Interface {
     labels: Vec<Rect>,
     /// Where the parts of the line of a wipe were, in points.
     line: Vec<Rect>,
+    /// Whether the next panel is to have the keyboard, or the one before.
+    wanted_step: Option<bool>,
     /// Where its handle was.
     handle: Option<Rect>,
     /// Where messages were, in points.
@@ -168,6 +170,7 @@ impl Interface {
             covered: Vec::new(),
             labels: Vec::new(),
             line: Vec::new(),
+            wanted_step: None,
             handle: None,
             told: Vec::new(),
         }
@@ -315,14 +318,30 @@ impl Interface {
         let ctx = self.ctx.clone();
         let thumbnails = self.dialogs.show(&ctx, viewer, &mut asked.commands);
         asked.thumbnails.extend(thumbnails);
+        self.take_step();
         focus::outline(&ctx);
     }
 
-    /// The next panel has the keyboard, or the one before; behind the last the picture.
-    pub(super) fn step_focus(&self, viewer: &Viewer, back: bool) {
+    /// The next panel has the keyboard, or the one before; behind the last the picture. What a dialog asked for waits until that
+    /// has gone, which keeps the focus to itself.
+    pub(super) fn step_focus(&mut self, viewer: &Viewer, back: bool) {
         if viewer.chrome().dialog().is_none() && !self.list_is_open() {
-            focus::step(&self.ctx, back);
+            self.wanted_step = Some(back);
+            self.take_step();
         }
+    }
+
+    fn take_step(&mut self) {
+        let is_free = self.ctx.memory(|memory| memory.top_modal_layer().is_none());
+        if let Some(back) = self.wanted_step.take_if(|_| is_free) {
+            focus::step(&self.ctx, back);
+            self.ctx.request_repaint();
+        }
+    }
+
+    /// Keys go into the list that is open.
+    pub(super) fn enter_list(&self) {
+        focus::enter_list(&self.ctx);
     }
 
     /// The picture has the keyboard.

@@ -92,8 +92,14 @@ pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
 
 /// The command whose word or name the text begins with, and what follows it.
 fn with_argument(text: &str) -> Option<(&'static CommandSpec, &str)> {
+    // A name may be written as options are: `sample-rate`.
     let after = |name: &str| {
         let (head, rest) = text.split_at_checked(name.len())?;
+        let head = if name.contains(' ') {
+            head.replace('-', " ")
+        } else {
+            head.to_owned()
+        };
         let rest = rest.strip_prefix(char::is_whitespace)?;
         head.eq_ignore_ascii_case(name).then_some(rest)
     };
@@ -263,6 +269,7 @@ mod tests {
             ("seed of random patterns 7", "7"),
             ("Zoom by 3 100,100", "3 100,100"),
             ("Go to pixel 5,5", "5,5"),
+            ("sample-rate 16", "16"),
             ("rate ", ""),
         ] {
             let (rest, found) = find(text, &viewer);

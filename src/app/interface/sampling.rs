@@ -139,7 +139,8 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             let values: Vec<Offered<'_, &str>> = values.collect();
             let list = ui.scope(|ui| {
                 ui.set_max_width(width);
-                drop_down(ui, panel.name, &shown.tip(), current.as_str(), &values)
+                let tip = format!("Chooses the {}\n{}", setting.label, shown.tip());
+                drop_down(ui, panel.name, &tip, current.as_str(), &values)
             });
             let chosen = list.inner;
             commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
@@ -169,7 +170,7 @@ fn buttons(ui: &mut Ui, shown: ShownSetting, values: &[String], now: &Settings, 
     let values: Vec<(&str, String)> = values.iter().map(|value| (value.as_str(), value.clone())).collect();
     let tip = |value: &str| match setting.note(value) {
         Some(note) => shown.with_idle(note.tip()),
-        None => shown.tip(),
+        None => format!("Sets the {} to {value}\n{}", setting.label, shown.tip()),
     };
     let chosen = choice_of(ui, panel.name, &tip, current.as_str(), &values);
     commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));

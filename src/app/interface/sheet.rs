@@ -5,6 +5,7 @@ use egui::{Align, Button, Checkbox, Color32, ComboBox, Context, Layout, Rect, Ri
 use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
 use super::controls::{choice, given_up_text, heading, row, tip};
+use super::focus;
 use super::look::CONTROL;
 use super::modal::{beside, modal};
 use super::scenes::image_of;
@@ -107,7 +108,7 @@ impl SheetDialog {
         let current = viewer.sheet().draft().axis(side);
         let name = current.map_or("nothing", |axis| axis.name.as_str());
         let mut chosen = None;
-        ComboBox::from_id_salt(title)
+        let list = ComboBox::from_id_salt(title)
             .width(ui.available_width())
             .selected_text(name.replace('-', " "))
             .height(f32::INFINITY)
@@ -123,6 +124,7 @@ impl SheetDialog {
             .response
             .on_hover_text(tip(id))
             .accessible_name(title);
+        focus::note_opener(&list);
         if let Some(name) = chosen {
             let axis = picture::find(name).map(Axis::first);
             commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis))));

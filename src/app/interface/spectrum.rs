@@ -111,7 +111,7 @@ impl SpectrumCard {
 fn hint(viewer: &Viewer) -> &'static str {
     let spectrum = viewer.spectrum();
     if !spectrum.is_current() {
-        "Being found out \u{2026}"
+        "Computing \u{2026}"
     } else if spectrum.of() == SpectrumOf::Texture && spectrum.has_pin() {
         "The pinned pixel shows no texture: pin one that does, by a right click."
     } else if spectrum.of() == SpectrumOf::Texture {

@@ -4,12 +4,18 @@ use egui::{Pos2, pos2};
 use glam::DVec2;
 
 use super::Session;
-use crate::viewer::{Command, Dialog, Key, KeyPress, Modifiers, PointerButton, PointerCommand, commands};
+use crate::viewer::{
+    Command, Dialog, Key, KeyPress, Modifiers, PointerButton, PointerCommand, Toggle, WindowCommand, commands,
+};
 
 impl Session {
     /// The command that a key asks for, unless a line of text or an open list wants the key.
     pub(in crate::app) fn command_for(&self, press: &KeyPress) -> Option<Command> {
-        if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
+        if self.interface.list_is_open() {
+            // What lies behind a list has none of its keys.
+            if press.logical != Some(Key::Escape) {
+                self.interface.enter_list();
+            }
             return None;
         }
         let in_dialog = self.viewer.chrome().dialog().is_some();
@@ -23,9 +29,11 @@ impl Session {
             Some(Key::Space | Key::Enter) => in_dialog,
             _ => false,
         };
-        let takes = by_focus || by_card;
-        if takes {
+        if by_focus || by_card {
             return None;
+        }
+        if self.viewer.chrome().start_card() && matches!(press.logical, Some(Key::Space | Key::Enter)) {
+            return Some(Command::Window(WindowCommand::StartCard(Toggle::Off)));
         }
         let command = commands::for_key(press)?;
         let typing = self.interface.has_keyboard();

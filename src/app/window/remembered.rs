@@ -175,7 +175,9 @@ impl Remembered {
 
     /// Remembers settings, but not in which dialect documents are read: that is theirs.
     pub(super) fn set_settings(&mut self, settings: &Settings) {
-        let changed = picture::sampling().filter(|setting| !setting.is_default(settings));
+        // A window that begins with the levels of textures instead of the picture is taken for broken.
+        let kept = picture::sampling().filter(|setting| setting.option != "visualise");
+        let changed = kept.filter(|setting| !setting.is_default(settings));
         self.settings = changed
             .map(|setting| (setting.option.to_owned(), setting.value(settings)))
             .collect();

@@ -62,6 +62,8 @@ fn of_setting(setting: &'static PictureSetting) -> impl Iterator<Item = CommandS
 
 /// The command called `id`.
 pub fn find(id: &str) -> Option<&'static CommandSpec> {
+    // The option of a command line and its command are one setting.
+    let id = if id == "sample-rate" { "rate" } else { id };
     all().iter().find(|spec| spec.id == id)
 }
 

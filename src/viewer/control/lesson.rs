@@ -148,7 +148,7 @@ impl Lessons<'_> {
             (true, _) => self
                 .chrome
                 .messages
-                .done("that was the last step; Esc closes the lesson".to_owned()),
+                .done("that was the last step; Close ends the lesson".to_owned()),
             (false, at) => self.take_step(at.saturating_sub(1)),
         }
         true

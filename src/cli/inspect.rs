@@ -1,9 +1,10 @@
 //! `rasterscope inspect`: why a pixel has its colour.
 
-use super::failure::{Failure, print, print_json};
+use super::failure::{Failure, print, print_error, print_json};
 use super::options::inspect::InspectOptions;
 use super::picture::{Picture, on_threads, spec};
 use crate::inspect::{Detail, Explanation, Question};
+use crate::render::Visualisation;
 use crate::viewer::{Restored, SceneSource};
 
 /// Explains the pixel that the options ask for.
@@ -32,6 +33,13 @@ fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<Strin
     }
     let picture = Picture::read(spec(&options.scene, &options.picture))?;
     picture.tell_changes(restored);
+    let shown = picture.subject().settings.visualisation;
+    if shown != Visualisation::Color {
+        print_error(&format!(
+            "--visualise {}: it is the colour that is explained, whatever is shown in its place",
+            shown.name()
+        ));
+    }
     let file = source.address();
     let question = Question {
         subject: picture.subject(),

@@ -16,6 +16,8 @@ const MOST: usize = 10_000;
 #[derive(Debug, Default)]
 pub(super) struct Chooser {
     folder: PathBuf,
+    /// That of the scene that was shown when it was opened last.
+    of_scene: Option<PathBuf>,
     items: Vec<Item>,
     /// Why the folder cannot be listed.
     problem: Option<String>,
@@ -61,15 +63,15 @@ impl Item {
 }
 
 impl Chooser {
-    /// Lists the folder where it was left, at first that of the scene that is shown.
+    /// Lists the folder where it was left, or that of the scene that is shown, where that is another one than before.
     pub(super) fn begin(&mut self, viewer: &Viewer) {
-        if self.folder.as_os_str().is_empty() {
-            let of_scene = match viewer.scene_list().current().map(|entry| &entry.source) {
-                Some(SceneSource::File(path)) => path.parent().map(Path::to_owned),
-                _ => None,
-            };
+        let of_scene = match viewer.scene_list().current().map(|entry| &entry.source) {
+            Some(SceneSource::File(path)) => path.parent().and_then(|folder| fs::canonicalize(folder).ok()),
+            _ => None,
+        };
+        if self.folder.as_os_str().is_empty() || (of_scene.is_some() && of_scene != self.of_scene) {
+            self.of_scene.clone_from(&of_scene);
             self.folder = of_scene
-                .and_then(|folder| fs::canonicalize(folder).ok())
                 .or_else(|| std::env::current_dir().ok())
                 .or_else(std::env::home_dir)
                 .unwrap_or_else(|| PathBuf::from("."));

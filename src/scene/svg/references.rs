@@ -77,9 +77,15 @@ pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L)
         steps: 0,
         references: 0,
         inherited: styles.inherited(root),
+        unmet: Vec::new(),
         has_circles: false,
     };
     search.run(root, listener)?;
+    for Unmet { node, by, id } in search.unmet.drain(..) {
+        if let Some(property) = property(by, node) {
+            listener.warn(node, format!("{property} refers to #{id}, and no element has that id"));
+        }
+    }
     if !search.has_circles {
         return Ok(());
     }
@@ -138,7 +144,34 @@ struct Search<'s, 'doc> {
     references: u64,
     /// Paint servers that elements hand down.
     inherited: HashMap<usize, [Option<&'doc str>; 2]>,
+    /// References to what is not there.
+    unmet: Vec<Unmet<'doc>>,
     has_circles: bool,
+}
+
+/// A reference to what is not there.
+struct Unmet<'doc> {
+    node: Node<'doc, 'doc>,
+    by: By,
+    id: &'doc str,
+}
+
+/// The name of what refers to something, where nothing else tells that it is not there.
+fn property(by: By, node: Node<'_, '_>) -> Option<&'static str> {
+    Some(match by {
+        By::Fill => "fill",
+        By::Stroke => "stroke",
+        By::Clip => "clip-path",
+        By::Mask => "mask",
+        By::Marker | By::EndMarker => "marker",
+        By::Href if is_server(node) => "href",
+        By::Href | By::Filter | By::Picture | By::Inside | By::Inherited => return None,
+    })
+}
+
+/// Whether it is a gradient or a pattern.
+fn is_server(node: Node<'_, '_>) -> bool {
+    matches!(node.tag_name().name(), "linearGradient" | "radialGradient" | "pattern")
 }
 
 impl<'doc> Search<'_, 'doc> {
@@ -214,7 +247,7 @@ impl<'doc> Search<'_, 'doc> {
         let nodes = root.descendants().filter(Node::is_element);
         let edges = nodes.flat_map(|node| {
             let from = node.id().get_usize();
-            let links = self.links(node).into_iter();
+            let links = self.links(node, &mut Vec::new()).into_iter();
             links.map(move |link| (from, link.to.id().get_usize(), link.by))
         });
         edges
@@ -225,21 +258,27 @@ impl<'doc> Search<'_, 'doc> {
     fn open(&mut self, link: Link<'doc>, times: u64) -> Open<'doc> {
         let Link { by, to } = link;
         self.done.insert(to.id(), None);
+        let mut unmet = std::mem::take(&mut self.unmet);
+        let links = self.links(to, &mut unmet);
+        self.unmet = unmet;
         Open {
             node: to,
-            links: self.links(to).into_iter(),
+            links: links.into_iter(),
             by,
             times,
             found: Found::alone(to),
         }
     }
 
-    /// What is inside an element, and what it refers to; markers after all that they may be drawn on.
-    fn links(&self, node: Node<'doc, 'doc>) -> Vec<Link<'doc>> {
+    /// What is inside an element, and what it refers to; markers after all that they may be drawn on. Notes what is not there.
+    fn links(&self, node: Node<'doc, 'doc>, unmet: &mut Vec<Unmet<'doc>>) -> Vec<Link<'doc>> {
         let inside = |to| Link { by: By::Inside, to };
         let mut links: Vec<Link<'doc>> = node.children().filter(Node::is_element).map(inside).collect();
         for (by, id) in self.styles.references(node) {
-            links.extend(self.ids.get(id).map(|to| Link { by, to: *to }));
+            match self.ids.get(id) {
+                Some(to) => links.push(Link { by, to: *to }),
+                None => unmet.push(Unmet { node, by, id }),
+            }
         }
         links.sort_by_key(|link| match link.by {
             By::Inside | By::Href => 0,

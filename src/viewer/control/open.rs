@@ -81,6 +81,11 @@ impl Opening<'_> {
             return;
         }
         let scenes = &mut *self.scene_list;
+        if scenes.scenes.len() <= 1 && matches!(command, SceneCommand::Next | SceneCommand::Previous) {
+            let words = "there is no other scene in the list; open more with Ctrl+O";
+            self.chrome.messages.done(words.to_owned());
+            return;
+        }
         match command {
             SceneCommand::Next => scenes.step(1),
             SceneCommand::Previous => scenes.step(scenes.scenes.len().saturating_sub(1)),

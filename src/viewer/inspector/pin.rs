@@ -58,6 +58,9 @@ impl Inspection {
     /// Moves the pin by frame pixels; pins first what the open inspector shows.
     pub(in crate::viewer) fn nudge(&mut self, by: [i64; 2], layout: &WindowLayout, chrome: &mut Chrome) {
         if self.magnifier.pin.is_none() && !self.magnifier.open {
+            chrome
+                .messages
+                .done("no pixel is pinned that could move; Enter pins the one under the pointer".to_owned());
             return;
         }
         if let Some([x, y]) = self.inspected_pixel(layout) {

@@ -17,7 +17,7 @@ use rasterscope::texture::{
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
-use crate::support::explaining::advised;
+use crate::support::explaining::{advised, advised_by_default};
 
 /// Pixels of each scene with each setting.
 const PIXELS: u64 = 1;
@@ -91,10 +91,11 @@ fn settings() -> Vec<RenderSettings> {
 }
 
 fn read(name: &str, document: &str) -> Scene {
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    scene::read(document.as_bytes(), name, options, &Textures).unwrap()
+    read_as(DialectChoice::Auto, name, document)
+}
+
+fn read_as(dialect: DialectChoice, name: &str, document: &str) -> Scene {
+    scene::read(document.as_bytes(), name, ReadOptions { dialect }, &Textures).unwrap()
 }
 
 /// A pixel drawn by the code that explains frames.
@@ -197,7 +198,8 @@ fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
             all.push(RenderSettings { shading, ..*own });
         }
     }
-    if own.sample_rate > SampleRate::ONE {
+    // Samples of other patterns share no lines either.
+    if own.sample_rate > SampleRate::ONE && own.pattern == SamplePattern::Grid {
         all.push(RenderSettings {
             pattern: SamplePattern::Rotated,
             ..*own
@@ -269,7 +271,9 @@ fn check(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, (pixel,
             nearer > 1.0 && (nearer - cure.nearer).abs() < 1e-9,
             "{place}: {cure:?} brings {nearer}"
         );
-        let figure = format!(" {} levels nearer", (nearer * 10.0).round() / 10.0);
+        let levels = (nearer * 10.0).round() / 10.0;
+        let plural = if levels == 1.0 { "" } else { "s" };
+        let figure = format!(" {levels} level{plural} nearer");
         assert!(hints.iter().any(|hint| hint.contains(&figure)), "{place}: {hints:?}");
     }
     // Nothing can bring it nearer by more than it is away.
@@ -411,6 +415,113 @@ fn advice_on_a_pattern_says_how_many_samples_go_with_it() {
     let (told, samples) = hints(SamplePattern::Grid);
     assert!(!told.contains("Pattern rotated with"), "the rate stays: {told}");
     assert!(samples.iter().all(Option::is_none), "{samples:?}");
+}
+
+#[test]
+fn exact_areas_of_upright_edges_are_right() {
+    for (edge, width) in [(8.03, 8.0), (8.2, 0.06), (8.5, 0.31)] {
+        let body = format!(r#"<rect x="{edge}" width="{width}" height="16"/>"#);
+        let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="16" height="16">{body}</svg>"#);
+        let scene = read_as(DialectChoice::Svg, "edge.svg", &document);
+        let settings = RenderSettings {
+            coverage: PixelCoverage::Exact,
+            ..RenderSettings::default()
+        };
+        let told = advised(&scene, &settings, [16, 16], [8, 8]).help_lines().concat();
+        assert!(told.starts_with("This pixel is what it should be"), "{body}: {told}");
+    }
+}
+
+#[test]
+fn what_is_hardly_seen_is_no_reason() {
+    // The polygon covers more than a third of the pixel and not its centre; the bar is thin, and hardly there.
+    let polygon = r#"<polygon points="4,4 5,4 5,4.35 4,4.35"/>"#;
+    let bar = r#"<rect x="4.6" y="0" width="0.1" height="8" fill-opacity="0.004"/>"#;
+    for (body, expected, why) in [
+        (
+            format!("{bar}{polygon}"),
+            "No sample meets some",
+            "the polygon is missed",
+        ),
+        (
+            r#"<rect x="4.6" y="0" width="0.1" height="8"/>"#.to_owned(),
+            "What is thin passes",
+            "the bar is",
+        ),
+    ] {
+        let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">{body}</svg>"#);
+        let told = advised(
+            &read("missed.svg", &document),
+            &RenderSettings::default(),
+            [8, 8],
+            [4, 4],
+        )
+        .hints()
+        .concat();
+        assert!(told.contains(expected), "{why}: {told}");
+    }
+    // By its samples the triangle covers all of the pixel; a neighbour of the same colour has the rest, and all is well but for
+    // the bar.
+    let halves = r#"<polygon points="0,0 4.8,0 4.8,8 0,8"/><polygon points="4.8,0 8,0 8,8 4.8,8"/>"#;
+    let white = r##"<rect x="4" y="4" width="1" height="0.3" fill="#FFFFFF"/>"##;
+    let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">{halves}{white}</svg>"#);
+    let told = advised(
+        &read("halves.svg", &document),
+        &RenderSettings::default(),
+        [8, 8],
+        [4, 4],
+    )
+    .hints()
+    .concat();
+    assert!(
+        told.contains("levels nearer") && !told.contains("By its samples"),
+        "{told}"
+    );
+}
+
+#[test]
+fn advice_on_the_rules_says_which_dialect_goes_with_them() {
+    let greys = SCENES
+        .iter()
+        .find(|scene| scene.name.contains("30_exact_greys"))
+        .expect("a study");
+    let settings = RenderSettings {
+        rules: Rules::Course,
+        coverage: PixelCoverage::Exact,
+        ..RenderSettings::default()
+    };
+    let scene = read_as(DialectChoice::Course, greys.name, greys.document);
+    let told = advised_by_default(&scene, &settings, [64, 64], [46, 47])
+        .hints()
+        .concat();
+    assert!(told.contains("Rules standard with dialect course"), "{told}");
+}
+
+#[test]
+fn opacity_is_no_seam() {
+    let seam = |opacity: f64| {
+        let halves = format!(
+            r#"<g fill-opacity="{opacity}"><polygon points="0,0 4.5,0 4.5,8 0,8"/><polygon points="4.5,0 8,0 8,8 4.5,8"/></g>"#
+        );
+        let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">{halves}</svg>"#);
+        let settings = RenderSettings {
+            coverage: PixelCoverage::Exact,
+            ..RenderSettings::default()
+        };
+        let scene = read_as(DialectChoice::Svg, "halves.svg", &document);
+        advised(&scene, &settings, [8, 8], [4, 4]).hints().concat()
+    };
+    let translucent = seam(0.5);
+    assert!(
+        translucent.contains("56.25 % of what is below shows through, where their opacity alone lets 50 % through"),
+        "{translucent}"
+    );
+    let opaque = seam(1.0);
+    assert!(
+        opaque.contains("= 25 % of what is below shows through: a seam"),
+        "{opaque}"
+    );
+    assert!(!seam(0.05).contains("a seam"), "less than can be told from none");
 }
 
 #[test]

@@ -274,6 +274,29 @@ fn svg_reports_what_it_does_not_draw() {
 }
 
 #[test]
+fn svg_tells_references_to_what_is_not_there() {
+    const RECT: &str = "<rect width='8' height='4' ";
+    for (look, property) in [
+        ("fill='url(#no)'", "fill"),
+        ("style='stroke: url(\"#no\")'", "stroke"),
+        ("clip-path='url(#no)'", "clip-path"),
+        ("mask='url(#no)'", "mask"),
+        ("class='a'", "clip-path"),
+    ] {
+        let scene = svg_scene(&format!("<style>.a {{ clip-path: url(#no) }}</style>{RECT}{look}/>"));
+        let told = lines(&scene);
+        let expected = format!("{property} refers to #no, and no element has that id");
+        assert!(told.len() == 1 && told[0].contains(&expected), "{look}: {told:?}");
+    }
+    let arrow = svg_scene("<path d='M0 0h9' marker-end='url(#no)'/><linearGradient id='g' href='#no'/>");
+    assert_eq!(lines(&arrow).len(), 2, "{:?}", lines(&arrow));
+    let there = svg_scene(&format!(
+        "{RECT} clip-path='url(#c)'/><clipPath id='c'>{RECT}/></clipPath>"
+    ));
+    assert_eq!(lines(&there), [""; 0], "nothing is to be told");
+}
+
+#[test]
 fn svg_numbers_may_stand_between_white_space() {
     let plain = filled("<rect width='8' height='4' fill='red'/>");
     for spaced in [

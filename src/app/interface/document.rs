@@ -1,12 +1,12 @@
 //! What the reader has to say about the document, and where the time of the last redraw went.
 
-use crate::viewer::SceneCommand;
 use std::time::Duration;
 
 use egui::{Label, RichText, Sense, Ui, vec2};
 
 use super::controls::{command_button, heading};
-use crate::viewer::{Command, SceneEntry, Viewer};
+use crate::inspect::counted;
+use crate::viewer::{Command, SceneCommand, SceneEntry, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
@@ -104,10 +104,7 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
         return;
     }
     let count = scene.report.lines().count();
-    heading(
-        ui,
-        &format!("Reader: {count} {}", if count == 1 { "note" } else { "notes" }),
-    );
+    heading(ui, &format!("Reader: {}", counted(count, "note")));
     for line in scene.report.lines().take(MAX_LINES) {
         ui.label(RichText::new(line).small().color(ui.visuals().warn_fg_color));
     }

@@ -56,6 +56,7 @@ use glam::DVec2;
 
 use super::interface::{Asked, Interface, PanelWidths, Sections};
 use super::overlay::{CanvasRect, Output, Overlay};
+use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, Effect, MessageKind, Modifiers, PixelRect, PointerButton, Viewer};
@@ -272,7 +273,15 @@ impl Session {
                 entry.source.address()
             );
         }
+        let notes = scene.report.lines().count();
         self.told = Some(std::sync::Arc::clone(scene));
+        if notes > 0 {
+            let words = format!(
+                "not all is drawn as the document says: {} at the end of the panel",
+                counted(notes, "note")
+            );
+            self.viewer.tell(MessageKind::Done, words);
+        }
     }
 
     /// The text that a command copied.

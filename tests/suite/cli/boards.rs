@@ -37,9 +37,9 @@ fn board_says_what_diff_and_sweep_say() {
         "A changes nothing"
     );
     for (entry, rate) in [(0, "16"), (1, "1")] {
-        for (name, rate) in [("own.png", rate), ("truth.png", "256")] {
-            let rate = format!("--sample-rate={rate}");
-            done(at, &["render", "a.svg", "-o", name, "--size=90x70", &rate]);
+        for (name, rate, pattern) in [("own.png", rate, "grid"), ("truth.png", "256", "hammersley")] {
+            let (rate, pattern) = (format!("--sample-rate={rate}"), format!("--pattern={pattern}"));
+            done(at, &["render", "a.svg", "-o", name, "--size=90x70", &rate, &pattern]);
         }
         let output = command(at, &["diff", "truth.png", "own.png", "--json"])
             .output()

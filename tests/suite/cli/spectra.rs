@@ -56,7 +56,7 @@ fn spectrum_tells_an_alias_and_whence_it_is() {
 
 #[test]
 fn spectrum_of_the_difference_is_what_the_truth_has_not() {
-    let own = report(&["--of=difference", "--sample-rate=256"]);
+    let own = report(&["--of=difference", "--sample-rate=256", "--pattern=hammersley"]);
     assert_eq!(own["peaks"], serde_json::json!([]), "the truth itself");
     let error = report(&["--of=difference"]);
     assert_near(numbers(&error["peaks"][0]["frequency"]), [0.3, 0.0], "the alias");

@@ -272,7 +272,7 @@ fn check(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, (pixel,
             "{place}: {cure:?} brings {nearer}"
         );
         let levels = (nearer * 10.0).round() / 10.0;
-        let plural = if levels == 1.0 { "" } else { "s" };
+        let plural = if levels.to_string() == "1" { "" } else { "s" };
         let figure = format!(" {levels} level{plural} nearer");
         assert!(hints.iter().any(|hint| hint.contains(&figure)), "{place}: {hints:?}");
     }

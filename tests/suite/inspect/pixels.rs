@@ -635,7 +635,7 @@ fn hints_name_a_cure_and_vanish_with_it() {
     assert!(missed.hints().concat().contains("breaks up"), "{:?}", missed.hints());
     let found = advised(&thin, &at(64), [8, 8], [1, 2]);
     assert!(
-        found.missed.is_empty() && found.hints().is_empty(),
+        found.missed.is_empty() && !found.hints().concat().contains("breaks up"),
         "more samples find it: {:?}",
         found.hints()
     );

@@ -295,8 +295,8 @@ fn a_seam_is_called_one_and_advice_knows_better() {
 
 #[test]
 fn advice_is_exact_only_where_that_helps() {
-    // A hundredth of a pixel more than samples of the grid tell.
-    let scene = svg(r#"<path d="M0 0H3.49V8H0z"/>"#);
+    // A thousandth of a pixel more than samples of the grid tell.
+    let scene = svg(r#"<path d="M0 0H3.499V8H0z"/>"#);
     let found = advised(&scene, &sampled(16), [8, 8], [3, 4]);
     let advises = |found: &Explanation| found.to_string().contains("Coverage by exact areas");
     assert!(!advises(&found), "samples are right there: {found}");

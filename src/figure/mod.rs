@@ -38,7 +38,7 @@ pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
 pub use shrink::shrunk;
-pub use snippets::{Figure, html, latex, markdown};
+pub use snippets::{Figure, html, in_markdown, latex, markdown};
 #[cfg(feature = "cli")]
 pub use spectrum::draw_spectrum;
 pub use table::{Table, TableFormat};

@@ -27,7 +27,7 @@ pub fn markdown(figures: &[Figure]) -> String {
         let _ = writeln!(
             text,
             "![{alternative}](<{}>)\n\n*{caption}*\n",
-            plain::line(&figure.file).replace(['<', '>'], "_")
+            in_address(&figure.file)
         );
     }
     text
@@ -63,12 +63,21 @@ pub fn latex(figures: &[Figure]) -> String {
     let mut text = format!("% {MARK}\n\\providecommand{{\\Description}}[1]{{}}\n");
     for figure in figures {
         let (caption, alternative) = (in_latex(&figure.caption), in_latex(&figure.alternative));
-        // A name with special signs is taken as it stands.
+        let file = plain::line(&figure.file);
+        let picture = if is_name_for_latex(&figure.file) {
+            // Other signs are taken as they stand.
+            format!("\\includegraphics[width=\\linewidth]{{\\detokenize{{{file}}}}}")
+        } else {
+            format!(
+                "% LaTeX cannot take this file name; rename the file, and name it here:\n  \
+                 % \\includegraphics[width=\\linewidth]{{{file}}}"
+            )
+        };
+        // Writing to a `String` cannot fail.
         let _ = writeln!(
             text,
-            "\n\\begin{{figure}}\n  \\centering\n  \\includegraphics[width=\\linewidth]{{\\detokenize{{{}}}}}\n  \
-             \\caption{{{caption}}}\n  \\Description{{{alternative}}}\n\\end{{figure}}",
-            plain::line(&figure.file)
+            "\n\\begin{{figure}}\n  \\centering\n  {picture}\n  \
+             \\caption{{{caption}}}\n  \\Description{{{alternative}}}\n\\end{{figure}}"
         );
     }
     text
@@ -79,7 +88,7 @@ fn in_address(file: &str) -> String {
     let mut escaped = String::new();
     for character in file.chars() {
         match character {
-            '%' | '#' | '?' | '<' | '>' | '"' | '\\' => {
+            '%' | '#' | '?' | '<' | '>' | '"' | '\\' | '&' | '`' => {
                 // Writing to a `String` cannot fail.
                 let _ = write!(escaped, "%{:02X}", u32::from(character));
             }
@@ -94,8 +103,14 @@ fn in_address(file: &str) -> String {
     escaped
 }
 
+/// Whether LaTeX finds a file of this name: no sign that it reads on its own before it knows that a name begins.
+fn is_name_for_latex(file: &str) -> bool {
+    let is_taken = |character: char| plain::is_plain(character) && !"%#{}\\^~\"".contains(character);
+    file.chars().all(is_taken)
+}
+
 /// A text in which no sign means anything to Markdown.
-fn in_markdown(text: &str) -> String {
+pub fn in_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for character in plain::line(text).chars() {
         if "\\`*_[]<>#|!".contains(character) {
@@ -196,5 +211,40 @@ mod tests {
             text.contains("50 \\% of <b> \\& \\{x\\}\\_1 \\#2 \\textbackslash{} 8$\\times$"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn snippets_name_any_file() {
+        for (name, address) in [
+            ("task#1.png", "task%231.png"),
+            ("what?.png", "what%3F.png"),
+            ("a%20b.png", "a%2520b.png"),
+            ("a&copy;b.png", "a%26copy;b.png"),
+            ("a<b>c.png", "a%3Cb%3Ec.png"),
+            ("50% of it.png", "50%25 of it.png"),
+            ("a{b.png", "a{b.png"),
+            ("a\nb`.png", "a%0Ab%60.png"),
+        ] {
+            let file = name.to_owned();
+            let figure = [Figure { file, ..figure() }];
+            let text = markdown(&figure);
+            assert!(text.contains(&format!("](<{address}>)")), "{name}: {text}");
+            let text = html("", &figure);
+            assert!(text.contains(&format!("src=\"{address}\"")), "{name}: {text}");
+            let text = latex(&figure);
+            let lines = || text.lines().map(str::trim_start);
+            let includes = lines().filter(|line| line.starts_with("\\includegraphics")).count();
+            if name.contains(['%', '#', '{', '\n']) {
+                assert!(
+                    includes == 0 && lines().any(|line| line.starts_with("% LaTeX")),
+                    "{name}: {text}"
+                );
+            } else {
+                assert!(
+                    includes == 1 && text.contains(&format!("\\detokenize{{{name}}}")),
+                    "{name}: {text}"
+                );
+            }
+        }
     }
 }

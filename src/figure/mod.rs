@@ -1,5 +1,9 @@
 //! Pictures made of frames: insets, legends, words, sheets, and the PNG files they are kept in. Knows no window.
 
+#[cfg(feature = "cli")]
+mod axis;
+#[cfg(feature = "cli")]
+mod beside;
 mod callout;
 mod inset;
 mod legend;
@@ -22,6 +26,8 @@ mod spectrum;
 mod table;
 mod tag;
 mod text;
+#[cfg(feature = "cli")]
+mod ticks;
 mod vacancy;
 
 pub use self::png::{encode_png, save_picture, save_png};

@@ -2,20 +2,29 @@
 
 use std::sync::LazyLock;
 
-use plotters::backend::BitMapBackend;
-use plotters::chart::ChartBuilder;
+use plotters::backend::{BitMapBackend, DrawingBackend};
+use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
-use plotters::coord::combinators::IntoLogRange as _;
+use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea as _};
 use plotters::element::{Circle, PathElement, Text};
 use plotters::series::LineSeries;
 use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, RGBColor, ShapeStyle, WHITE, register_font};
 
+use super::PixelRect;
+use super::axis::{Axis, Scale};
+use super::beside::Beside;
 use crate::plain;
 use crate::raster::Framebuffer;
 
 /// What fonts are called here.
 const FONT: &str = "sans-serif";
+/// Heights of letters in units: of legend and notes, and of the numbers of axes.
+const LETTERS: f64 = 1.1;
+const NUMBERS: f64 = 1.15;
+/// Around the chart, and below it for numbers and words, in units.
+const MARGIN: f64 = 0.8;
+const BELOW: f64 = 3.4;
 /// Colours of series (M. Okabe, K. Ito, "Color Universal Design", 2008), the palest left out.
 const COLORS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xB2),
@@ -47,8 +56,25 @@ pub struct Plot {
 pub struct PlotSeries {
     /// In the legend; a single series without a name has none.
     pub name: String,
-    /// Where, above zero to the right, and the words beside the point. Points that are not finite are left out.
+    /// Where, above zero to the right, and the words beside the point. Points that are not finite are named
+    /// below the chart instead.
     pub points: Vec<([f64; 2], String)>,
+}
+
+impl Plot {
+    /// The points that are not finite, which no axis reaches: their words, and the name of their series.
+    fn left_out(&self) -> Vec<String> {
+        let of_series = |series: &PlotSeries| {
+            let words = series.points.iter().filter(|point| !is_shown(point));
+            let words: Vec<&str> = words.map(|(_, words)| words.as_str()).collect();
+            let words = (!words.is_empty()).then(|| words.join(", "))?;
+            Some(match series.name.as_str() {
+                "" => words,
+                name => format!("{words} of {name}"),
+            })
+        };
+        self.series.iter().filter_map(of_series).collect()
+    }
 }
 
 /// Draws a chart on white, `size` pixels wide and high.
@@ -77,8 +103,11 @@ pub fn draw_plot(plot: &Plot, size: [u32; 2]) -> Result<Framebuffer, String> {
 
 /// The points that can be shown.
 fn shown(series: &PlotSeries) -> impl Iterator<Item = &([f64; 2], String)> {
-    let is_shown = |point: &&([f64; 2], String)| point.0.iter().all(|value| value.is_finite()) && point.0[0] > 0.0;
-    series.points.iter().filter(is_shown)
+    series.points.iter().filter(|point| is_shown(point))
+}
+
+fn is_shown((place, _): &([f64; 2], String)) -> bool {
+    place.iter().all(|value| value.is_finite()) && place[0] > 0.0
 }
 
 /// What both axes span: all points, and some room for their words.
@@ -102,61 +131,140 @@ fn ranges(plot: &Plot) -> Option<[[f64; 2]; 2]> {
     Some([[left / factor, right * factor * factor], [bottom, high + spare]])
 }
 
-type Problem<'b> = DrawingAreaErrorKind<<BitMapBackend<'b> as plotters::backend::DrawingBackend>::ErrorType>;
+type Problem<'b> = DrawingAreaErrorKind<<BitMapBackend<'b> as DrawingBackend>::ErrorType>;
+type Area<'b> = DrawingArea<BitMapBackend<'b>, Shift>;
+type Chart<'c, 'b> = ChartContext<'c, BitMapBackend<'b>, Cartesian2d<Axis, Axis>>;
 
-fn draw<'b>(
-    plot: &Plot,
-    [[left, right], [low, high]]: [[f64; 2]; 2],
-    size: [u32; 2],
-    bytes: &'b mut [u8],
-) -> Result<(), Problem<'b>> {
-    let [width, height] = size.map(|side| f64::from(side.min(Framebuffer::MAX_SIDE)));
-    // Letters keep their part of the picture.
-    let unit = (width.min(height * 1.5) / 60.0).max(8.0);
+/// Pixels of units of letters, which keep their part of the picture.
+#[derive(Clone, Copy)]
+struct Unit(f64);
+
+impl Unit {
+    fn of_picture([width, height]: [u32; 2]) -> Self {
+        let [width, height] = [width, height].map(|side| f64::from(side.min(Framebuffer::MAX_SIDE)));
+        Self((width.min(height * 1.5) / 60.0).max(8.0))
+    }
+
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "at most a picture's side"
     )]
-    let px = |units: f64| (unit * units).round() as u32;
+    fn px(self, units: f64) -> u32 {
+        (self.0 * units).round().max(0.0) as u32
+    }
+
+    /// About how wide a text of this height is: a letter is about half as wide as high.
+    fn width(self, text: &str, height: f64) -> f64 {
+        self.0 * height * 0.55 * text.chars().count() as f64
+    }
+}
+
+fn draw<'b>(plot: &Plot, ranges: [[f64; 2]; 2], size: [u32; 2], bytes: &'b mut [u8]) -> Result<(), Problem<'b>> {
+    let unit = Unit::of_picture(size);
     let root = BitMapBackend::with_buffer(bytes, (size[0], size[1])).into_drawing_area();
     root.fill(&WHITE)?;
+    let left_out = plot.left_out();
+    let note = if left_out.is_empty() { 0 } else { unit.px(2.0) };
+    let (upper, lower) = root.split_vertically(size[1] - note);
+    draw_note(&left_out, &lower, unit)?;
     // Beside the chart, where no point can be.
-    let (area, legend) = root.split_horizontally(size[0] - legend_width(plot, px(1.1), size[0]));
-    draw_legend(plot, &legend, px(1.1))?;
+    let (area, legend) = upper.split_horizontally(size[0] - legend_width(plot, unit.px(LETTERS), size[0]));
+    draw_legend(plot, &legend, unit.px(LETTERS))?;
+    let ([level, upright], beside) = axes(ranges, area.dim_in_pixel(), unit);
+    let title = plain::line(&plot.title);
+    // A long name is small rather than cut off.
+    let room = f64::from(area.dim_in_pixel().0) - unit.0 * 2.0;
+    let letters = 1.5 * (room / unit.width(&title, 1.5).max(1.0)).min(1.0);
     let mut chart = ChartBuilder::on(&area)
-        .margin(px(0.8))
-        .caption(plain::line(&plot.title), (FONT, px(1.5)).into_font())
-        .x_label_area_size(px(3.4))
-        .y_label_area_size(px(5.0))
-        .build_cartesian_2d((left..right).log_scale(), low..high)?;
+        .margin(unit.px(MARGIN))
+        .caption(title, (FONT, unit.px(letters).max(8)).into_font())
+        .x_label_area_size(unit.px(BELOW))
+        .y_label_area_size(beside)
+        .build_cartesian_2d(level, upright)?;
     chart
         .configure_mesh()
         .light_line_style(BLACK.mix(0.0))
         .bold_line_style(BLACK.mix(0.12))
-        .x_desc(&plot.axes[0])
+        .x_desc(format!("{} (logarithmic scale)", plot.axes[0]))
         .y_desc(&plot.axes[1])
-        .label_style((FONT, px(1.15)).into_font())
-        .axis_desc_style((FONT, px(1.25)).into_font())
-        .x_label_formatter(&|value| short(*value))
-        .y_label_formatter(&|value| short(*value))
+        .label_style((FONT, unit.px(NUMBERS)).into_font())
+        .axis_desc_style((FONT, unit.px(1.25)).into_font())
         .draw()?;
-    for (series, color) in plot.series.iter().zip(COLORS.into_iter().cycle()) {
-        let line = ShapeStyle::from(color).stroke_width(px(0.12).max(1));
-        let points: Vec<&([f64; 2], String)> = shown(series).collect();
-        let places = points.iter().map(|(at, _)| (at[0], at[1]));
-        chart.draw_series(LineSeries::new(places, line))?;
-        let dots = points
-            .iter()
-            .map(|(at, _)| Circle::new((at[0], at[1]), px(0.3), ShapeStyle::from(color).filled()));
-        chart.draw_series(dots)?;
-        let words = points.iter().map(|(at, words)| {
-            let place = (at[0] * (right / left).powf(0.012), at[1] + (high - low) * 0.022);
-            Text::new(words.clone(), place, (FONT, px(1.05)).into_font().color(&color))
-        });
-        chart.draw_series(words)?;
-    }
+    draw_points(plot, &mut chart, &upper, unit)?;
     root.present()
+}
+
+/// Both axes with the ticks that an area has room for, and the pixels beside the chart that the numbers of the upright one
+/// take.
+fn axes([across, up]: [[f64; 2]; 2], (width, height): (u32, u32), unit: Unit) -> ([Axis; 2], u32) {
+    let high = f64::from(height) - unit.0 * (MARGIN * 2.0 + BELOW + 2.0);
+    let upright = Axis::new(Scale::Even, up, |_, apart| apart * high >= unit.0 * NUMBERS * 2.0);
+    let widest = upright.ticks().iter().map(|tick| unit.width(&tick.label, NUMBERS));
+    let beside = widest.fold(0.0, f64::max) / unit.0 + 2.8;
+    let wide = f64::from(width) - unit.0 * (MARGIN * 2.0 + beside);
+    let level = Axis::new(Scale::Logarithmic, across, |two, apart| {
+        let [one, other] = two.map(|tick| unit.width(&tick.label, NUMBERS) / 2.0);
+        apart * wide >= one + other + unit.0
+    });
+    ([level, upright], unit.px(beside))
+}
+
+/// Lines through points, the points, and their words.
+fn draw_points<'b>(plot: &Plot, chart: &mut Chart<'_, 'b>, area: &Area<'b>, unit: Unit) -> Result<(), Problem<'b>> {
+    let radius = unit.px(0.3);
+    let colored = || plot.series.iter().zip(COLORS.into_iter().cycle());
+    for (series, color) in colored() {
+        let line = ShapeStyle::from(color).stroke_width(unit.px(0.12).max(1));
+        let places = || shown(series).map(|(at, _)| (at[0], at[1]));
+        chart.draw_series(LineSeries::new(places(), line))?;
+        chart.draw_series(places().map(|at| Circle::new(at, radius, ShapeStyle::from(color).filled())))?;
+    }
+    let (x, y) = chart.plotting_area().get_pixel_range();
+    let length = |range: &std::ops::Range<i32>| u32::try_from(range.end - range.start).unwrap_or(0);
+    let inside = PixelRect {
+        x: x.start.into(),
+        y: y.start.into(),
+        width: length(&x),
+        height: length(&y),
+    };
+    let pixel = |at: &[f64; 2]| {
+        let (x, y) = chart.backend_coord(&(at[0], at[1]));
+        [x.into(), y.into()]
+    };
+    let points = plot.series.iter().flat_map(shown).map(|(at, _)| pixel(at));
+    let mut beside = Beside::new(inside, points, radius);
+    for (series, color) in colored() {
+        for (at, words) in shown(series) {
+            let words = plain::line(words);
+            let style = (FONT, unit.px(1.05)).into_font().color(&color);
+            let (width, height) = area.estimate_text_size(&words, &style)?;
+            let place = beside.place(pixel(at), [width, height]);
+            let place = place.map(|place| i32::try_from(place).unwrap_or(0));
+            area.draw(&Text::new(words, (place[0], place[1]), style))?;
+        }
+    }
+    Ok(())
+}
+
+/// Names the points that no axis can reach.
+fn draw_note<'b>(left_out: &[String], area: &Area<'b>, unit: Unit) -> Result<(), Problem<'b>> {
+    if left_out.is_empty() {
+        return Ok(());
+    }
+    let (width, _) = area.dim_in_pixel();
+    let text = format!("infinite, and left out: {}", left_out.join("; "));
+    let letters = f64::from(width) / unit.width("x", LETTERS);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a small number above zero"
+    )]
+    let text = plain::short_line(&text, (letters as usize).saturating_sub(6).max(16));
+    let font = (FONT, unit.px(LETTERS)).into_font();
+    let (x, y) = (unit.px(MARGIN), unit.px(0.2));
+    let place = [x, y].map(|at| i32::try_from(at).unwrap_or(0));
+    area.draw(&Text::new(text, (place[0], place[1]), font))
 }
 
 /// Pixels that the legend takes of a chart's width, for letters of this height; none where no series has a name.
@@ -173,7 +281,7 @@ fn legend_width(plot: &Plot, letters: u32, width: u32) -> u32 {
 }
 
 /// The names of series, one below the other, each after a line of its colour; how many there was no room for.
-fn draw_legend<'b>(plot: &Plot, area: &DrawingArea<BitMapBackend<'b>, Shift>, letters: u32) -> Result<(), Problem<'b>> {
+fn draw_legend<'b>(plot: &Plot, area: &Area<'b>, letters: u32) -> Result<(), Problem<'b>> {
     let (_, height) = area.dim_in_pixel();
     let room = (height / (letters * 3 / 2).max(1)).saturating_sub(3) as usize;
     let named = || {
@@ -202,23 +310,6 @@ fn draw_legend<'b>(plot: &Plot, area: &DrawingArea<BitMapBackend<'b>, Shift>, le
         area.draw(&Text::new(words, (letters * 2, row(room)), (FONT, letters).into_font()))?;
     }
     Ok(())
-}
-
-/// A number with as many digits as a reader needs.
-fn short(value: f64) -> String {
-    let digits: usize = match value.abs() {
-        size if size >= 10.0 || size == 0.0 => 0,
-        size if size >= 1.0 => 1,
-        size if size >= 0.1 => 2,
-        size if size >= 0.01 => 3,
-        _ => 4,
-    };
-    let text = format!("{value:.digits$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
 }
 
 #[cfg(test)]
@@ -281,6 +372,23 @@ mod tests {
     }
 
     #[test]
+    fn plot_names_what_no_axis_reaches() {
+        let mut finite = plot(&[[1.0, 40.0], [2.0, 41.0]]);
+        assert!(finite.left_out().is_empty(), "all are there");
+        let before = draw_plot(&finite, [600, 400]).expect("a chart");
+        let infinite = ([3.0, f64::INFINITY], "256".to_owned());
+        finite.series[0].points.push(infinite);
+        assert_eq!(finite.left_out(), ["256 of nearest"], "with its series");
+        let after = draw_plot(&finite, [600, 400]).expect("a chart");
+        // Below the numbers, to the left of the words in the middle.
+        let has_words = |picture: &Framebuffer| {
+            let mut rows = picture.pixels().chunks(600).skip(400 - 18);
+            rows.any(|row| row[..150].iter().any(|pixel| *pixel != 0xFFFF_FFFF))
+        };
+        assert!(!has_words(&before) && has_words(&after), "told below");
+    }
+
+    #[test]
     fn plot_survives_any_numbers() {
         for points in [
             vec![[1.0, 0.0]],
@@ -292,19 +400,5 @@ mod tests {
         }
         assert!(draw_plot(&plot(&[]), [300, 200]).is_err(), "nothing to show");
         assert!(draw_plot(&plot(&[[1.0, 1.0]]), [3, 2]).is_err(), "no room");
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in [
-            (0.0, "0"),
-            (0.05, "0.05"),
-            (0.1, "0.1"),
-            (2.5, "2.5"),
-            (20.0, "20"),
-            (1000.0, "1000"),
-        ] {
-            assert_eq!(short(value), text, "{value}");
-        }
     }
 }

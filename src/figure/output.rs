@@ -138,6 +138,11 @@ impl Guard {
     /// When something is there that must stay.
     pub fn target(&self, path: &Path, named: Named) -> io::Result<PathBuf> {
         let refused = |why: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, why));
+        if path == Path::new("-") {
+            return refused(
+                "`-` is no file, and nothing goes to standard output instead of one; ./- is a file of that name",
+            );
+        }
         let about = match std::fs::metadata(path) {
             Ok(about) => about,
             Err(_) if path.is_symlink() => return refused("a link of that name leads nowhere"),

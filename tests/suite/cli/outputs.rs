@@ -107,6 +107,28 @@ fn outputs_never_replace_an_input() {
 }
 
 #[test]
+fn outputs_are_files_and_never_standard_output() {
+    let folder = folder();
+    let line = "--line=1,5,30,5";
+    for arguments in [
+        &["sweep", "s.svg", "--csv", "-", SMALL][..],
+        &["sweep", "s.svg", "--csv", "t.csv", "--markdown", "-", SMALL],
+        &["profile", "s.svg", "--csv", "-", line, SMALL],
+        &["spectrum", "s.svg", "--csv=-", SMALL],
+    ] {
+        refused(
+            folder.path(),
+            arguments,
+            &["-: cannot write here", "standard output", "./-"],
+        );
+    }
+    // Whoever wants a file of that name says so.
+    let words = ["profile", "s.svg", "--csv", "./-", line, SMALL];
+    done(folder.path(), &words);
+    assert!(folder.path().join("-").is_file(), "as it was asked for");
+}
+
+#[test]
 fn outputs_replace_their_own_making_only() {
     let folder = folder();
     let folder = folder.path();

@@ -86,6 +86,15 @@ impl BoardEntry {
         self.changes(other).is_empty()
     }
 
+    /// Why people would take one for the other: two patterns of one name. `None` where they would not.
+    pub fn mistaken_for(self, other: Self) -> Option<String> {
+        let (own, other) = (self.settings(), other.settings());
+        picture::all().find_map(|setting| {
+            let values = [setting.value(&own), setting.value(&other)];
+            setting.mistaken(values.each_ref().map(|value| (value.as_str(), value.as_str())))
+        })
+    }
+
     /// The value of a setting.
     pub fn value(self, setting: &PictureSetting) -> String {
         setting.value(&self.settings())

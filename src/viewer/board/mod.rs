@@ -45,6 +45,9 @@ impl Board {
         if self.entries.iter().any(|known| known.is_like(entry)) {
             return Err("the board has these settings already; change one, then add them".to_owned());
         }
+        if let Some(problem) = self.entries.iter().find_map(|known| known.mistaken_for(entry)) {
+            return Err(problem);
+        }
         if self.entries.len() >= MAX_ENTRIES {
             return Err(format!("the board holds {MAX_ENTRIES} settings; remove one first"));
         }

@@ -4,10 +4,14 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{Settings, values};
+use crate::plain;
 use crate::raster::SamplePattern;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
 use crate::viewer::key_chords::Chord;
+
+/// Longest value that is quoted as it was written, in characters.
+const MAX_WRITTEN: usize = 80;
 
 /// A setting that decides the pixels of a picture, besides scene and view.
 pub struct PictureSetting {
@@ -342,11 +346,47 @@ impl PictureSetting {
         if values::path(text.trim()).is_file() {
             return self.read(text, None);
         }
-        let values: Result<Vec<String>, String> = values::list(text)
-            .into_iter()
-            .map(|value| self.read(value, None))
-            .collect();
-        Ok(values?.join(","))
+        let typed = values::list(text);
+        let values: Result<Vec<String>, String> = typed.iter().map(|value| self.read(value, None)).collect();
+        let values = values?;
+        let told: Vec<(&str, &str)> = typed.into_iter().zip(values.iter().map(String::as_str)).collect();
+        self.told_apart(&told)?;
+        Ok(values.join(","))
+    }
+
+    /// Says which two of some values people would take for one: each as it was written, and the value itself.
+    ///
+    /// # Errors
+    /// One line with both and the cure.
+    pub fn told_apart(&self, values: &[(&str, &str)]) -> Result<(), String> {
+        let before = |index: usize| values[..index].iter().map(move |known| [*known, values[index]]);
+        let mut pairs = (0..values.len()).flat_map(before);
+        match pairs.find_map(|two| self.mistaken(two)) {
+            Some(problem) => Err(problem),
+            None => Ok(()),
+        }
+    }
+
+    /// Why people would take one value for the other, which are shown by the same name; `None` where they would not.
+    pub fn mistaken(&self, [(one, a), (other, b)]: [(&str, &str); 2]) -> Option<String> {
+        let name = self.short(a);
+        if a == b || name != self.short(b) || self.as_given(a) == self.as_given(b) {
+            return None;
+        }
+        let [one, other] = [one, other].map(|written| plain::short_line(written.trim(), MAX_WRITTEN));
+        Some(format!(
+            "{one} and {other} differ, and both are called `{name}`; give one of them another name"
+        ))
+    }
+
+    /// A value as [`PictureSetting::value`] gives it, and a text that is none as it is.
+    fn as_given(&self, text: &str) -> String {
+        let mut settings = Settings::default();
+        if self.set(&mut settings, text) {
+            self.value(&settings)
+        } else {
+            text.to_owned()
+        }
     }
 
     /// Whether a value may lie in a file.

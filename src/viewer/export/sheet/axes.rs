@@ -39,6 +39,10 @@ impl Axis {
                 return Err(format!("{value} is there twice; give it once"));
             }
         }
+        if let Some(setting) = picture::find(name) {
+            let written: Vec<(&str, &str)> = values.iter().map(|value| (value.as_str(), value.as_str())).collect();
+            setting.told_apart(&written)?;
+        }
         Ok(Self {
             name: name.to_owned(),
             values,

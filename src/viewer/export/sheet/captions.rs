@@ -4,6 +4,7 @@ use crate::plain;
 use crate::viewer::export::sheet::axes::{Axis, Choice};
 use crate::viewer::export::spec::PictureSpec;
 use crate::viewer::library::SceneSource;
+use crate::viewer::settings::picture;
 
 /// Settings of samples, by their options.
 const PATTERN: &str = "pattern";
@@ -124,7 +125,7 @@ pub(in crate::viewer) fn difference<'a>(
 }
 
 /// A scene's name on a picture: not its folder, for a picture that is drawn again where both were moved must be the same.
-pub(in crate::viewer) fn title(scene: &SceneSource) -> String {
+pub fn title(scene: &SceneSource) -> String {
     let address = scene.address();
     let name = match scene {
         SceneSource::File(path) => path
@@ -138,7 +139,10 @@ pub(in crate::viewer) fn title(scene: &SceneSource) -> String {
 /// The settings in words that differ from their defaults, but for those that are `told` elsewhere.
 pub(in crate::viewer) fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
     let settings = spec.settings().into_iter().filter(|(name, _)| !told(name));
-    let words = settings.map(|(name, value)| format!("{} {value}", name.replace('-', " ")));
+    // Samples that somebody wrote down fill pages; records and command lines have them.
+    let short =
+        |name: &str, value: String| picture::find(name).map_or(value.clone(), |known| known.short(&value).to_owned());
+    let words = settings.map(|(name, value)| format!("{} {}", name.replace('-', " "), short(name, value)));
     words.collect::<Vec<_>>().join(", ")
 }
 

@@ -17,7 +17,6 @@ pub(super) enum Failure {
     /// Not a failure: a text that was asked for, such as the help.
     Text(String),
     /// A signal asked the program to end: what is said, and the exit status.
-    #[cfg(feature = "window")]
     Stopped {
         /// Which signal.
         line: String,
@@ -51,9 +50,7 @@ impl Failure {
     /// What it says, without its exit status.
     pub(super) fn into_line(self) -> String {
         match self {
-            Self::Input(line) | Self::Other(line) | Self::Text(line) => line,
-            #[cfg(feature = "window")]
-            Self::Stopped { line, .. } => line,
+            Self::Input(line) | Self::Other(line) | Self::Text(line) | Self::Stopped { line, .. } => line,
             Self::Different => String::new(),
         }
     }
@@ -69,7 +66,6 @@ impl Failure {
                 print_error(line);
                 ExitCode::from(1)
             }
-            #[cfg(feature = "window")]
             Self::Stopped { line, status } => {
                 print_error(line);
                 ExitCode::from(*status)

@@ -7,9 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-#[cfg(feature = "window")]
-use super::failure::Failure;
-use super::failure::print_error;
+use super::failure::{Failure, print_error};
 use super::progress;
 use crate::figure::writing;
 use crate::render::CancelToken;
@@ -20,6 +18,9 @@ static AWAITED: Mutex<Option<Box<dyn Fn() + Send>>> = Mutex::new(None);
 static LAST: AtomicU8 = AtomicU8::new(0);
 /// Signals that ask the program to end: their numbers, and how people call them.
 const SIGNALS: [(u8, &str); 3] = [(2, "Ctrl+C"), (15, "SIGTERM"), (1, "SIGHUP")];
+
+/// What is left of work that nobody had to save.
+const WHOLE: &str = "; every file that was written is whole";
 
 /// Begins to listen.
 pub(super) fn listen() {
@@ -57,15 +58,20 @@ pub(super) fn instead(work: Box<dyn Fn() + Send>) {
 /// The end that the last signal asked for.
 #[cfg(feature = "window")]
 pub(super) fn ended() -> Failure {
+    ended_with(WHOLE)
+}
+
+/// The same; `what` goes on after "stopped by Ctrl+C".
+pub(super) fn ended_with(what: &str) -> Failure {
     let (signal, name) = SIGNALS[usize::from(LAST.load(Ordering::Relaxed))];
     Failure::Stopped {
-        line: line(name),
+        line: line(name, what),
         status: 128 + signal,
     }
 }
 
-fn line(name: &str) -> String {
-    format!("stopped by {name}; every file that was written is whole")
+fn line(name: &str, what: &str) -> String {
+    format!("stopped by {name}{what}")
 }
 
 /// Ends the program as shells expect of what was interrupted, once no file is half-written.
@@ -83,7 +89,7 @@ fn stop(place: u8) {
     // Never let go: no other file is begun.
     let _writing = writing();
     progress::clear();
-    print_error(&line(name));
+    print_error(&line(name, WHOLE));
     exit(128 + i32::from(signal))
 }
 

@@ -65,6 +65,11 @@ impl Picture {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
     }
 
+    /// The same, unless it is stopped: then `None`, and the picture is unfinished.
+    pub(super) fn draw_unless(&mut self, stop: &CancelToken) -> Option<FrameStats> {
+        render::draw_cancellable(&self.scene, &self.view, &self.spec.render, &mut self.frame, stop)
+    }
+
     /// Draws the picture again and again, and gives the time of each frame that counts; `None` when stopped.
     pub(super) fn time_draws(&mut self, repeats: Repeats, stop: &CancelToken) -> Option<Vec<Duration>> {
         let subject = Subject {

@@ -16,11 +16,15 @@ use super::picture::{Picture, on_threads};
 use super::render::{guard_of, name_for_png, unwritable_by};
 use super::size::FrameSize;
 use crate::compare::Pair;
-use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, Table, draw_plot, encode_png, save_files};
+use crate::figure::{
+    Destination, Guard, Named, NewFile, Plot, PlotSeries, Record, Table, draw_plot, save_files, save_picture,
+};
 use crate::raster::Framebuffer;
 use crate::render::{CancelToken, Repeats, median, milliseconds};
-use crate::scene::{DialectChoice, FileDigest, Scene};
-use crate::viewer::{BoardNumbers, BoardSort, Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
+use crate::scene::{DialectChoice, Scene};
+use crate::viewer::{
+    BoardNumbers, BoardSort, Choice, PictureSpec, Restored, SceneSource, as_path, picture, plain_record, scene_title,
+};
 
 /// Most combinations of a sweep.
 const MAX_CHOICES: usize = 1000;
@@ -50,8 +54,6 @@ struct Sweep {
     /// Of the first combinations.
     rows: Vec<Row>,
     record: Record,
-    /// The scene's textures.
-    textures: Vec<FileDigest>,
 }
 
 /// What others are compared with.
@@ -64,24 +66,29 @@ struct Truth {
 pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     let chart = chart_of(options);
     check_outputs(options, &chart)?;
-    let guard = guard(options, restored)?;
+    let mut guard = guard(options, restored)?;
     let specs = specs(options)?;
     let stop = interrupt::token();
-    let sweep = on_threads(options.framing.threads, || measure(options, specs, restored, &stop))??;
-    if sweep.rows.is_empty() {
-        return Err(Failure::other(
-            "stopped before anything was measured; nothing is written",
-        ));
-    }
-    sweep.write(options, &chart, guard)?;
+    let measured = || measure(options, specs, restored, &stop, &mut guard);
+    let sweep = on_threads(options.framing.threads, measured)??;
     let (done, all) = (sweep.rows.len(), sweep.specs.len());
-    if done < all {
-        let table = options.csv.display();
-        return Err(Failure::other(format!(
-            "stopped: {done} of {all} combinations are in {table}"
-        )));
+    if done == 0 {
+        let what = " before anything was measured; nothing is written";
+        return Err(interrupt::ended_with(what));
     }
-    print(&sweep.short_table(options).text())
+    // Minutes of work are in the tables; a chart that cannot be written must not cost them.
+    sweep.write_tables(options, &guard)?;
+    if done == all {
+        print(&sweep.short_table(options).text())?;
+        return sweep.write_chart(options, &chart, &guard);
+    }
+    if let Err(problem) = sweep.write_chart(options, &chart, &guard) {
+        print_error(&problem.into_line());
+    }
+    let (are, table) = (if done == 1 { "is" } else { "are" }, options.csv.display());
+    Err(interrupt::ended_with(&format!(
+        ": {done} of {all} combinations {are} in {table}"
+    )))
 }
 
 /// Where the chart goes.
@@ -132,9 +139,7 @@ fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, F
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }
-    for (path, named) in outputs(options, &chart_of(options)) {
-        guard.target(path, named).map_err(|error| unwritable(path, &error))?;
-    }
+    check_targets(options, &guard)?;
     let chart = chart_of(options);
     if options.plot.is_none() && !options.force && is_of_another_command(&chart) {
         let chart = chart.display();
@@ -144,6 +149,14 @@ fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, F
         )));
     }
     Ok(guard)
+}
+
+/// Says before anything is measured which of the files would not be written.
+fn check_targets(options: &SweepOptions, guard: &Guard) -> Result<(), Failure> {
+    for (path, named) in outputs(options, &chart_of(options)) {
+        guard.target(path, named).map_err(|error| unwritable(path, &error))?;
+    }
+    Ok(())
 }
 
 /// Whether a picture is one of this program, and something else than a chart: nobody said that it may be replaced.
@@ -182,6 +195,7 @@ fn measure(
     specs: Vec<(Choice, PictureSpec)>,
     restored: Option<&Restored>,
     stop: &CancelToken,
+    guard: &mut Guard,
 ) -> Result<Sweep, Failure> {
     let mut scenes: Vec<(DialectChoice, Arc<Scene>)> = Vec::new();
     let mut truths: Vec<Truth> = Vec::new();
@@ -198,6 +212,8 @@ fn measure(
         } else {
             let picture = Picture::read(spec.clone())?;
             picture.tell_changes(restored);
+            picture.protect(guard);
+            check_targets(options, guard)?;
             scenes.push((spec.dialect, Arc::clone(&picture.scene)));
             picture.scene
         };
@@ -209,9 +225,8 @@ fn measure(
             frames: options.frames,
             patience: Duration::MAX,
         };
-        let times = picture.time_draws(repeats, stop);
-        let truth = truth(&mut truths, &truth_of(options, spec), &scene, stop);
-        let row = times.zip(truth).and_then(|(times, truth)| {
+        let row = picture.time_draws(repeats, stop).and_then(|times| {
+            let truth = truth(&mut truths, &truth_of(options, spec), &scene, stop)?;
             let peak = peak_of_drawing(spec, options.framing.threads);
             row(times, peak, Pair::new(picture.frame(), truth).ok()?, stop)
         });
@@ -221,9 +236,7 @@ fn measure(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let files = scenes.iter().flat_map(|(_, scene)| &scene.files.textures);
     Ok(Sweep {
-        textures: files.map(|(_, digest)| *digest).collect(),
         specs,
         rows,
         record: told,
@@ -247,7 +260,7 @@ fn truth<'t>(
 ) -> Option<&'t Framebuffer> {
     if !truths.iter().any(|truth| truth.spec == *spec) {
         let mut picture = Picture::of(spec.clone(), Arc::clone(scene));
-        picture.draw();
+        picture.draw_unless(stop)?;
         // Lists rarely make several truths; two that alternate are not drawn again and again.
         truths.truncate(1);
         let frame = picture.into_frame();
@@ -309,8 +322,16 @@ fn record(options: &SweepOptions, first: &PictureSpec, scene: &Scene) -> Record 
 
 /// All values of a combination.
 fn words(choice: &Choice) -> String {
-    let words: Vec<String> = choice.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    let words: Vec<String> = choice
+        .iter()
+        .map(|(name, value)| format!("{name} {}", short_value(name, value)))
+        .collect();
     words.join(", ")
+}
+
+/// What people are shown of a value.
+fn short_value<'v>(name: &str, value: &'v str) -> &'v str {
+    picture::find(name).map_or(value, |setting| setting.short(value))
 }
 
 /// A value of a combination.
@@ -363,13 +384,12 @@ impl Sweep {
         rows
     }
 
-    /// Names and values of settings, and what was measured: of the settings that `cell` has a cell for.
-    fn table(&self, options: &SweepOptions, cell: impl Fn(&str, &str) -> Option<String>) -> Table {
+    /// Names and values of the settings that are `told`, and what was measured.
+    fn table(&self, options: &SweepOptions, told: impl Fn(&str) -> bool) -> Table {
         let of_choice = |choice: &Choice| -> Vec<(String, String)> {
-            let cells = choice
-                .iter()
-                .map(|(name, value)| Some((name.clone(), cell(name, value)?)));
-            cells.flatten().collect()
+            let told = choice.iter().filter(|(name, _)| told(name));
+            told.map(|(name, value)| (name.clone(), short_value(name, value).to_owned()))
+                .collect()
         };
         let first = self.specs.first();
         let named = first.map_or_else(Vec::new, |(choice, _)| of_choice(choice));
@@ -391,8 +411,7 @@ impl Sweep {
 
     /// The table for a reader, without settings that all rows share.
     fn short_table(&self, options: &SweepOptions) -> Table {
-        let axis = |name: &str| options.axes.0.axes().find(|axis| axis.name == name);
-        self.table(options, |name, value| Some(axis(name)?.short(value).to_owned()))
+        self.table(options, |name| options.axes.0.axes().any(|axis| axis.name == name))
     }
 
     /// Whether patterns bring numbers of samples of their own, which no list tells.
@@ -403,25 +422,30 @@ impl Sweep {
         differ && !self.specs.iter().any(is_listed)
     }
 
-    /// Writes table and chart, or neither.
-    fn write(&self, options: &SweepOptions, chart: &Path, mut guard: Guard) -> Result<(), Failure> {
-        guard.protect_contents(self.textures.iter().copied());
-        let table = self.table(options, |_, value| Some(value.to_owned())).csv();
+    /// Writes the tables, or none.
+    fn write_tables(&self, options: &SweepOptions, guard: &Guard) -> Result<(), Failure> {
+        let table = self.table(options, |_| true).csv();
         let mut files = vec![NewFile::by_user(&options.csv, table.into_bytes())];
         if let Some(markdown) = &options.markdown {
             let table = self.short_table(options).markdown();
             files.push(NewFile::by_user(markdown, table.into_bytes()));
         }
+        save_files(&files, guard).map_err(|(path, error)| unwritable(&path, &error))
+    }
+
+    fn write_chart(&self, options: &SweepOptions, chart: &Path, guard: &Guard) -> Result<(), Failure> {
         match draw_plot(&self.plot(options), CHART) {
             Ok(picture) => {
-                let bytes = encode_png(&picture, Some(&self.record)).map_err(|error| unwritable(chart, &error))?;
-                let (path, named) = (chart.to_owned(), chart_named(options));
-                files.push(NewFile { path, bytes, named });
+                let (path, named) = (chart, chart_named(options));
+                let saved = save_picture(&picture, Some(&self.record), Destination { path, named }, guard);
+                saved.map_err(|error| unwritable_by("--plot", chart, &error))
             }
             // Signal to noise is infinite where pictures are equal.
-            Err(problem) => print_error(&format!("{}: no chart: {problem}", chart.display())),
+            Err(problem) => {
+                print_error(&format!("{}: no chart: {problem}", chart.display()));
+                Ok(())
+            }
         }
-        save_files(&files, &guard).map_err(|(path, error)| unwritable(&path, &error))
     }
 
     /// A line through all values of the first list, for each combination of the others.
@@ -444,7 +468,7 @@ impl Sweep {
                 points: line.iter().map(point).collect(),
             }
         });
-        let scene = SceneSource::from_address(&options.scene).address();
+        let scene = scene_title(&SceneSource::from_address(&options.scene));
         Plot {
             title: first.map_or(scene.clone(), |axis| format!("{scene}: each point a {}", axis.title())),
             axes: [

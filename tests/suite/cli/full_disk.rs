@@ -49,6 +49,26 @@ fn full_disk_leaves_no_half_file() {
 }
 
 #[test]
+fn full_disk_costs_no_measurement() {
+    let folder = tempfile::tempdir().unwrap();
+    let lists = ["--sample-rate=1,4", "--size=40x40", "--frames=1"];
+    let arguments = [&["sweep", "gallery:basic/test4.svg", "--csv", "t.csv"], &lists[..]].concat();
+    // Room for the table and not for the chart.
+    let output = run_with_room(8, folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        stderr.contains("t.png: cannot write") && stderr.contains("--plot"),
+        "{stderr}"
+    );
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(told.lines().count(), 3, "the table is printed: {told}");
+    assert_eq!(names(folder.path()), ["t.csv"], "and written");
+    let table = fs::read_to_string(folder.path().join("t.csv")).unwrap();
+    assert_eq!(table.lines().count(), 3, "whole: {table}");
+}
+
+#[test]
 fn full_disk_keeps_what_was_there() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["render", "gallery:texmap/test4.svg", "-o", "out.png", "--size=400x400"];

@@ -205,7 +205,7 @@ fn sweep_leaves_what_is_measured_when_interrupted() {
     let folder = folder();
     let list: Vec<String> = (-512..=400).map(|step| format!("{}", f64::from(step) / 32.0)).collect();
     let lists = format!("--lod-bias={}", list.join(","));
-    let mut running = sweep(folder.path(), &["a.svg", "--csv", "t.csv", "--size=300x300", &lists])
+    let running = sweep(folder.path(), &["a.svg", "--csv", "t.csv", "--size=300x300", &lists])
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
@@ -213,9 +213,14 @@ fn sweep_leaves_what_is_measured_when_interrupted() {
     std::thread::sleep(Duration::from_millis(1500));
     let start = Instant::now();
     interrupt(&running);
-    let status = running.wait().unwrap();
-    assert_eq!(status.code(), Some(1), "not finished");
+    let output = running.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "as after any Ctrl+C");
     assert!(start.elapsed() < Duration::from_secs(20), "at once");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        stderr.contains("stopped by Ctrl+C: ") && stderr.contains("combinations are in t.csv"),
+        "{stderr}"
+    );
     let table = cells(&folder.path().join("t.csv"));
     assert!(table.len() > 1 && table.len() < 900, "{} lines", table.len());
     assert!(table.iter().all(|line| line.len() == 8), "whole lines");

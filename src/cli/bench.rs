@@ -10,6 +10,7 @@ use super::memory::peak_megabytes;
 use super::options::bench::BenchOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::progress;
+use super::rounded::rounded;
 use crate::plain;
 use crate::render::{FrameStats, median, milliseconds};
 
@@ -103,13 +104,13 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
         sample_rate: options.picture.sampling.sample_rate().samples(),
         threads: rayon::current_num_threads(),
         frames: options.frames,
-        median_ms: milliseconds(stage(FrameStats::total)),
-        min_ms: milliseconds(min),
+        median_ms: rounded(milliseconds(stage(FrameStats::total))),
+        min_ms: rounded(milliseconds(min)),
         stages_ms: Stages {
-            transform: milliseconds(stage(|frame| frame.transform)),
-            bin: milliseconds(stage(|frame| frame.bin)),
-            raster: milliseconds(stage(|frame| frame.raster)),
-            resolve: milliseconds(stage(|frame| frame.resolve)),
+            transform: rounded(milliseconds(stage(|frame| frame.transform))),
+            bin: rounded(milliseconds(stage(|frame| frame.bin))),
+            raster: rounded(milliseconds(stage(|frame| frame.raster))),
+            resolve: rounded(milliseconds(stage(|frame| frame.resolve))),
             present: None,
         },
         triangles: last.triangles,

@@ -22,6 +22,7 @@ mod progress;
 mod render;
 mod rerun;
 mod restore;
+mod rounded;
 mod sheet;
 mod size;
 mod spectrum;

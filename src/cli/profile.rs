@@ -8,6 +8,7 @@ use super::failure::{Failure, print, print_json};
 use super::options::profile::ProfileOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::render::{guard_of, unwritable_by};
+use super::rounded::rounded;
 use crate::compare::{Edge, Line, LinePoint, Profile, ProfileChannel};
 use crate::figure::{Guard, Named, NewFile, save_files};
 use crate::plain;
@@ -232,11 +233,6 @@ impl SideReport {
             ),
         }
     }
-}
-
-/// To millionths: what is beyond is rounding.
-fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
 }
 
 impl EdgeReport {

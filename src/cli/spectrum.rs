@@ -9,6 +9,7 @@ use super::failure::{Failure, print, print_json};
 use super::options::spectrum::SpectrumOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::render::{guard_of, name_for_png, unwritable, unwritable_by};
+use super::rounded::rounded;
 use crate::compare::{SpectrumAnalysis, SpectrumOf, SpectrumReading, Wave};
 use crate::figure::{Destination, Guard, Named, NewFile, Record, draw_spectrum, save_files, save_picture};
 use crate::plain;
@@ -287,9 +288,4 @@ impl PeakReport {
         let parts: Vec<String> = std::iter::once(numbers).chain(words.into_iter().flatten()).collect();
         parts.join("  ")
     }
-}
-
-/// To millionths: what is beyond is rounding.
-fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
 }

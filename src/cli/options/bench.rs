@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::framing::PictureOptions;
+use super::values::whole;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct BenchOptions {
@@ -12,7 +13,7 @@ pub(in crate::cli) struct BenchOptions {
     #[arg(required = true, value_name = "SCENE")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
     /// How often each scene is drawn
-    #[arg(long, default_value_t = 30, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 30, value_name = "K", value_parser = whole::<u32>(1..=100_000))]
     pub(in crate::cli) frames: u32,
     /// Print JSON instead of text: an object, or for several scenes a list of objects
     #[arg(long)]

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::sampling::SamplingOptions;
+use super::values::whole;
 use crate::cli::size::FrameSize;
 use crate::cli::view_option;
 use crate::geometry::View;
@@ -26,6 +27,6 @@ pub(in crate::cli) struct FramingOptions {
     #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(in crate::cli) view: View,
     /// Threads that draw or compare [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=256))]
     pub(in crate::cli) threads: Option<u16>,
 }

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::inspect::{PixelPlace, pixel};
+use super::values::whole;
 use crate::raster::SampleRate;
 
 #[derive(Debug, Args)]
@@ -11,10 +12,10 @@ pub(in crate::cli) struct PatternOptions {
     #[arg(value_name = "PATTERN")]
     pub(in crate::cli) patterns: Vec<String>,
     /// Samples per pixel, 1 to 256 [default: 16, or as many as a custom pattern has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(SampleRate::MAX)))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=SampleRate::MAX))]
     pub(in crate::cli) sample_rate: Option<u32>,
     /// Which places samples have where chance decides about them: 0 to 65535
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = whole::<u16>(0..=65_535))]
     pub(in crate::cli) seed: u16,
     /// Column and row of the pixel, from 0, whose samples are told
     #[arg(long, default_value = "0,0", value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::framing::PictureOptions;
+use super::values::whole;
 use crate::compare::SpectrumOf;
 use crate::raster::Region;
 
@@ -24,7 +25,7 @@ pub(in crate::cli) struct SpectrumOptions {
     #[arg(short, long, value_name = "OUT.png")]
     pub(in crate::cli) output: Option<PathBuf>,
     /// How many of the strongest waves are told
-    #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, default_value_t = 8, value_name = "N", value_parser = whole::<u16>(1..=1000))]
     pub(in crate::cli) peaks: u16,
     /// A table of them to write
     #[arg(long, value_name = "OUT.csv")]

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::framing::FramingOptions;
 use super::lists::Lists;
+use super::values::whole;
 use crate::cli::size::FrameSize;
 use crate::color::ResolveSpace;
 use crate::viewer::BoardSort;
@@ -36,7 +37,7 @@ pub(in crate::cli) struct SweepOptions {
     #[arg(long, default_value = Quality::default().name(), value_enum)]
     pub(in crate::cli) quality: Quality,
     /// Frames whose time is taken, for each combination
-    #[arg(long, default_value = "5", value_name = "K", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value = "5", value_name = "K", value_parser = whole::<u32>(1..=10_000))]
     pub(in crate::cli) frames: u32,
     /// Pixels of the pictures
     #[arg(long, default_value = "1024x1024", value_name = "WxH", allow_hyphen_values = true)]

@@ -10,6 +10,7 @@ use super::failure::{Failure, print, print_error, print_json};
 use super::options::board::BoardOptions;
 use super::picture::{on_threads, read_scene, spec};
 use super::render::{guard_of, name_for_png, unwritable};
+use super::rounded::rounded;
 use super::{interrupt, memory, progress};
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::raster::{Framebuffer, Region};
@@ -146,6 +147,7 @@ fn measure(options: &BoardOptions, restored: Option<&Restored>) -> Result<Measur
             sort: options.sort,
             space: options.truth_space,
             ground: options.theme,
+            frames: options.frames,
         },
         place,
         truth,
@@ -155,7 +157,7 @@ fn measure(options: &BoardOptions, restored: Option<&Restored>) -> Result<Measur
 }
 
 fn stopped() -> Failure {
-    Failure::other("stopped before everything was measured; nothing is written")
+    interrupt::ended_with(" before everything was measured; nothing is written")
 }
 
 /// The region that was asked for, or one in the middle.
@@ -190,6 +192,9 @@ fn entries(options: &BoardOptions, own: &PictureSpec) -> Result<Vec<BoardEntry>,
     let mut entries: Vec<BoardEntry> = Vec::new();
     for text in &options.with {
         let entry = own.with(text).map_err(|problem| at_fault("--with", &problem))?;
+        if let Some(problem) = entries.iter().find_map(|known| known.mistaken_for(entry)) {
+            return Err(at_fault("--with", &problem));
+        }
         if entries.iter().any(|known| known.is_like(entry)) {
             let problem = format!("{text} is on the board already; give every setting once");
             return Err(at_fault("--with", &problem));
@@ -200,6 +205,10 @@ fn entries(options: &BoardOptions, own: &PictureSpec) -> Result<Vec<BoardEntry>,
         let varied = varied(text, own).map_err(|problem| at_fault("--vary", &problem))?;
         let is_new = |entry: &BoardEntry| !entries.iter().any(|known| known.is_like(*entry));
         let new: Vec<BoardEntry> = varied.into_iter().filter(is_new).collect();
+        let known = || entries.iter().flat_map(|known| new.iter().map(move |new| (known, new)));
+        if let Some(problem) = known().find_map(|(known, new)| known.mistaken_for(*new)) {
+            return Err(at_fault("--vary", &problem));
+        }
         entries.extend(new);
     }
     match entries.len() {
@@ -295,7 +304,7 @@ impl Measured {
                 .collect(),
             rmse: tile.numbers.rmse,
             flip: tile.numbers.flip,
-            time_ms: milliseconds(tile.numbers.time),
+            time_ms: rounded(milliseconds(tile.numbers.time)),
         };
         let ([width, height], region) = (self.place.truth.size, self.place.region);
         Report {

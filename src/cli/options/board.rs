@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::framing::PictureOptions;
+use super::values::whole;
 use crate::color::ResolveSpace;
 use crate::figure::Ground;
 use crate::raster::Region;
-use crate::viewer::BoardSort;
+use crate::viewer::{BoardCommandLine, BoardSort};
 
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct BoardOptions {
@@ -17,7 +18,7 @@ pub(in crate::cli) struct BoardOptions {
     /// Settings to compare, changes of those of the other options: "sample-rate 16, pattern sobol"; A changes nothing. Up to nine times
     #[arg(long = "with", value_name = "SETTINGS", allow_hyphen_values = true)]
     pub(in crate::cli) with: Vec<String>,
-    /// Compare the values of a setting: pattern, or some of them, sample-rate=1,4,16
+    /// Compare the values of a setting that has names, such as pattern, or those of a list, sample-rate=1,4,16
     #[arg(long, value_name = "SETTING[=LIST]")]
     pub(in crate::cli) vary: Option<String>,
     /// What is shown and compared: column, row, width and height in pixels [default: 64x64 pixels in the middle]
@@ -30,7 +31,7 @@ pub(in crate::cli) struct BoardOptions {
     #[arg(long, value_name = "SPACE", value_enum)]
     pub(in crate::cli) truth_space: Option<ResolveSpace>,
     /// Frames whose time is taken, for each of the settings
-    #[arg(long, default_value = "5", value_name = "K", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = BoardCommandLine::FRAMES, value_name = "K", value_parser = whole::<u32>(1..=10_000))]
     pub(in crate::cli) frames: u32,
     /// A picture to write: the truth and all settings side by side, with their numbers
     #[arg(short, long, value_name = "OUT.png")]

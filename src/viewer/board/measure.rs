@@ -37,6 +37,8 @@ pub struct BoardTile {
     pub pixels: Framebuffer,
     /// What was measured of it.
     pub numbers: BoardNumbers,
+    /// How many frames its time is the median of.
+    pub frames: usize,
 }
 
 impl BoardPlace {
@@ -109,6 +111,7 @@ impl BoardPlace {
             settings: &spec.render,
         };
         let times = time_draws(&subject, &mut frame, repeats, cancel)?;
+        let frames = times.len();
         let pixels = frame.cut(self.region);
         let pair = Pair::new(truth, &pixels).ok()?;
         let numbers = BoardNumbers {
@@ -116,6 +119,10 @@ impl BoardPlace {
             flip: pair.flip(cancel)?,
             time: median(times),
         };
-        Some(BoardTile { pixels, numbers })
+        Some(BoardTile {
+            pixels,
+            numbers,
+            frames,
+        })
     }
 }

@@ -10,13 +10,14 @@ use crate::render::{CancelToken, Repeats};
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::board::entry::BoardEntry;
 use crate::viewer::board::measure::{BoardMeasure, BoardPlace, BoardTile};
+use crate::viewer::board::report::BoardCommandLine;
 use crate::viewer::export::sheet::preview::KnownScene;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 
 /// How often an entry's frame is drawn for its time: few slow ones, so that nine entries do not take minutes.
 const REPEATS: Repeats = Repeats {
-    frames: 5,
+    frames: BoardCommandLine::FRAMES,
     patience: Duration::from_millis(400),
 };
 

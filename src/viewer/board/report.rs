@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::color::ResolveSpace;
-use crate::figure::{Ground, Record, SheetPlan, Table, magnified};
+use crate::figure::{Ground, Record, SheetPlan, Table, in_markdown, magnified};
 use crate::raster::{Framebuffer, Region};
 use crate::render::milliseconds;
 use crate::scene::Scene;
@@ -46,6 +46,8 @@ pub struct BoardCommandLine {
     pub space: Option<ResolveSpace>,
     /// Ground and ink of the picture.
     pub ground: Ground,
+    /// Frames whose time is taken, for each entry.
+    pub frames: u32,
 }
 
 impl<'a> BoardReport<'a> {
@@ -71,7 +73,9 @@ impl<'a> BoardReport<'a> {
         let names = told.iter().map(|setting| setting.option.replace('-', "_"));
         let head = names.chain(COLUMNS.map(str::to_owned)).collect();
         let line = |(entry, tile): &(BoardEntry, &BoardTile)| {
-            let values = told.iter().map(|setting| entry.value(setting));
+            let values = told
+                .iter()
+                .map(|setting| setting.short(&entry.value(setting)).to_owned());
             values.chain(cells(&tile.numbers)).collect()
         };
         Table {
@@ -81,7 +85,7 @@ impl<'a> BoardReport<'a> {
 
     /// The same as Markdown, with a line below that says what was compared with what.
     pub fn markdown(&self) -> String {
-        format!("{}\n{}\n", self.table().markdown(), self.caption())
+        format!("{}\n{}\n", self.table().markdown(), in_markdown(&self.caption()))
     }
 
     /// What all entries have that is not at its default, as a sentence.
@@ -106,9 +110,11 @@ impl<'a> BoardReport<'a> {
         let place = self.place;
         let [width, height] = place.truth.size;
         let shared = self.shared();
+        let several = self.rows.iter().any(|(_, tile)| tile.frames > 1);
+        let median = if several { "the median of several" } else { "drawn once" };
         format!(
-            "{}: {} of {width} \u{d7} {height}{shared}. RMSE in levels and FLIP against the truth, {}. Time: of the whole frame, the \
-             median of several.",
+            "{}: {} of {width} \u{d7} {height}{shared}. RMSE in levels and FLIP against the truth, {}. Time: of the whole frame, \
+             {median}.",
             title(&place.truth.scene),
             place.region_words(),
             place.truth_words()
@@ -163,6 +169,9 @@ fn cells(numbers: &BoardNumbers) -> [String; 3] {
 }
 
 impl BoardCommandLine {
+    /// Frames whose time is taken where nothing is said.
+    pub const FRAMES: u32 = 5;
+
     /// Why its picture is not the same when it is made again.
     pub const DIFFERS: &str = "a picture with times, which differ from run to run";
 
@@ -187,6 +196,9 @@ impl BoardCommandLine {
         words.push(format!("--region={x},{y},{width},{height}"));
         words.push(format!("--sort={}", self.sort.name()));
         words.extend(self.space.map(|space| format!("--truth-space={}", space.name())));
+        if self.frames != Self::FRAMES {
+            words.push(format!("--frames={}", self.frames));
+        }
         if self.ground != Ground::default() {
             words.push(format!("--theme={}", self.ground.name()));
         }

@@ -182,6 +182,7 @@ impl<'a> Boarded<'a> {
             sort: self.board.sort,
             space: self.truth_space(),
             ground: self.ground(),
+            frames: BoardCommandLine::FRAMES,
         })
     }
 

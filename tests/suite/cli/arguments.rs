@@ -349,7 +349,17 @@ fn cli_bench_prints_json() {
     ];
     let output = run(folder.path(), &options);
     assert!(output.status.success(), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    let times = printed
+        .split(['{', ',', '}'])
+        .filter(|part| part.contains("_ms\":") || part.contains("raster"));
+    let digits = |part: &str| part.rsplit_once('.').map_or(0, |(_, digits)| digits.trim().len());
+    assert!(times.clone().count() > 2, "{printed}");
+    assert!(
+        times.clone().all(|part| digits(part) <= 6),
+        "whole nanoseconds: {printed}"
+    );
+    let report: serde_json::Value = serde_json::from_str(&printed).expect("one JSON object");
     for (name, value) in [
         ("width", 64),
         ("height", 48),
@@ -473,6 +483,19 @@ fn cli_refuses_values_beyond_their_limits() {
             &["render", "a.svg", "-o", "b.png", &option],
             &[value, words],
         );
+    }
+    for (command, option, most) in [
+        ("bench", "--frames", 100_000),
+        ("board", "--frames", 10_000),
+        ("bench", "--threads", 256),
+        ("spectrum", "--peaks", 1000),
+        ("pattern", "--sample-rate", 256),
+    ] {
+        for value in ["0", "1.5", "-1", &(most + 1).to_string()] {
+            let option = format!("{option}={value}");
+            let words = format!("the value is a whole number from 1 to {most};");
+            refused(folder.path(), &[command, "a.svg", &option], &[value, &words]);
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use rasterscope::figure::Record;
+
 use crate::support::program::{command, done};
 use crate::support::refusal::assert_refused;
 
@@ -185,6 +187,22 @@ fn board_is_a_table_and_a_picture() {
         (90, 70),
         "with its size"
     );
+}
+
+#[test]
+fn board_tells_how_its_times_were_taken() {
+    let folder = folder();
+    let at = folder.path();
+    let name = "a*b*c <i>.svg";
+    fs::write(at.join(name), SCENE).unwrap();
+    let words = ["board", name, "--size=90x70", "--with=A", "--markdown", "-o", "b.png"];
+    for (frames, told) in [("--frames=1", "drawn once."), ("--frames=3", "the median of several.")] {
+        let markdown = done(at, &[&words[..], &[frames]].concat());
+        assert!(markdown.contains(told), "{markdown}");
+        assert!(markdown.contains("a\\*b\\*c \\<i\\>.svg"), "no marks: {markdown}");
+        let record = Record::of_file(&at.join("b.png")).unwrap().unwrap();
+        assert!(record.command_line.contains(frames), "{}", record.command_line);
+    }
 }
 
 #[test]

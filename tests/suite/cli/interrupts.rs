@@ -37,6 +37,8 @@ fn interrupts_stop_every_command_between_files() {
         &["inspect", "slow.svg", "--pixel=500,500", slow],
         &["diff", "slow.svg", "other.png", slow],
         &["bench", "slow.svg", slow],
+        &["sweep", "slow.svg", "--csv", "out.csv", slow, "--frames=10000"],
+        &["board", "slow.svg", "--with=A", "-o", "out.png", slow, "--frames=10000"],
         &["rerun", "shot.png", "-o", "out.png", "--scene", "slow.svg"],
         &["writeup", "-o", "out", "--robot", "slow.svg", "--scenes", "."],
         &["lesson", "slow.toml", "--slides", "out"],
@@ -70,7 +72,8 @@ fn interrupts_stop_every_command_between_files() {
         assert!(start.elapsed() < Duration::from_secs(10), "{arguments:?}: at once");
         let told = stderr.lines().filter(|line| line.contains("stopped by Ctrl+C")).count();
         assert!(told == 1 && output.stdout.is_empty(), "{arguments:?}: {stderr}");
-        assert!(!at("out.png").exists(), "{arguments:?}: no picture");
+        let written = ["out.png", "out.csv"].iter().any(|name| at(name).exists());
+        assert!(!written, "{arguments:?}: no picture, no table");
         assert!(
             names(folder.path()).iter().all(|name| !name.starts_with('.')),
             "{arguments:?}: no part of one"

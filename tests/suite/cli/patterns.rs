@@ -229,8 +229,14 @@ fn cli_sweeps_and_boards_take_patterns_from_files() {
     );
     let table = fs::read_to_string(folder.path().join("o.csv")).unwrap();
     assert!(
-        table.contains("\nown:64/192+128/128x2,3,"),
-        "the samples themselves: {table}"
+        table.contains("\nown,3,"),
+        "by its name, whose samples the chart's record has: {table}"
+    );
+    let chart = Record::of_file(&folder.path().join("o.png")).unwrap().unwrap();
+    assert!(
+        chart.command_line.contains("own:64/192+128/128x2"),
+        "{}",
+        chart.command_line
     );
     let board = |more: &[&str]| {
         let first = [
@@ -253,6 +259,99 @@ fn cli_sweeps_and_boards_take_patterns_from_files() {
     fs::remove_file(folder.path().join("own.toml")).unwrap();
     let arguments = ["board", "a.svg", "--with", "pattern own.toml"];
     assert_refused(&run(folder.path(), &arguments), &arguments, &["--with", "own.toml"]);
+}
+
+#[test]
+fn cli_samples_of_patterns_flood_no_caption_and_no_table() {
+    let folder = folder_with_a_pattern();
+    let at = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let small = ["--size", "40x30", "--pattern", "own.toml"];
+    let sheet = ["sheet", "a.svg", "-o", "s.png", "--pixel-sampling", "nearest,bilinear"];
+    done(folder.path(), &[&sheet[..], &small].concat());
+    let told = at("s/figures.md");
+    assert!(told.contains("In all: pattern own") && !told.contains("own:"), "{told}");
+    let record = Record::of_file(&folder.path().join("s.png")).unwrap().unwrap();
+    assert!(record.command_line.contains("own:64/192"), "{}", record.command_line);
+    let measured = ["--frames", "1"];
+    let sweep = [
+        "sweep",
+        "a.svg",
+        "--csv",
+        "o.csv",
+        "--pixel-sampling",
+        "nearest,bilinear",
+    ];
+    done(folder.path(), &[&sweep[..], &small, &measured].concat());
+    let told = at("o.csv");
+    assert!(told.contains(",own,") && !told.contains("own:"), "{told}");
+    let board = ["board", "a.svg", "--vary", "pattern=grid,own.toml", "--size", "40x30"];
+    for form in ["--csv", "--markdown"] {
+        let told = done(folder.path(), &[&board[..], &measured, &[form]].concat());
+        assert!(told.contains("own") && !told.contains("own:"), "{told}");
+    }
+    let board = ["board", "a.svg", "--with", "pixel-sampling bilinear"];
+    let told = done(folder.path(), &[&board[..], &small, &measured].concat());
+    assert!(told.contains("pattern own") && !told.contains("own:"), "{told}");
+}
+
+#[test]
+fn cli_patterns_of_one_name_are_refused_beside_each_other() {
+    let folder = folder_with_a_pattern();
+    let other = "name = \"own\"\nsamples = [{ x = 0.5, y = 0.5 }]";
+    fs::write(folder.path().join("other.toml"), other).unwrap();
+    let files = "--pattern=own.toml,other.toml";
+    let written = "--pattern=own:64/192,own:128/128";
+    let small = "--size=40x30";
+    for (arguments, told) in [
+        (
+            &["sheet", "a.svg", "-o", "s.png", small, files][..],
+            ["own.toml and other.toml", "`own`"],
+        ),
+        (
+            &["sweep", "a.svg", "--csv", "s.csv", small, files],
+            ["own.toml and other.toml", "another name"],
+        ),
+        (
+            &["sweep", "a.svg", "--csv", "s.csv", small, written],
+            ["own:64/192 and own:128/128", "another name"],
+        ),
+        (
+            &["board", "a.svg", small, "--vary", "pattern=own.toml,other.toml"],
+            ["own.toml and other.toml", "another name"],
+        ),
+        (
+            &[
+                "board",
+                "a.svg",
+                small,
+                "--with=pattern own.toml",
+                "--with=pattern other.toml",
+            ],
+            ["own:64/192", "own:128/128"],
+        ),
+        (
+            &[
+                "board",
+                "a.svg",
+                small,
+                "--with=pattern own.toml",
+                "--vary=pattern=other.toml,grid",
+            ],
+            ["own:64/192", "own:128/128"],
+        ),
+    ] {
+        assert_refused(&run(folder.path(), arguments), arguments, &told);
+    }
+    // The same samples twice are one pattern.
+    let twice = [
+        "board",
+        "a.svg",
+        small,
+        "--frames=1",
+        "--with=pattern own.toml",
+        "--vary=pattern=own.toml,grid",
+    ];
+    done(folder.path(), &twice);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::figure::{Destination, Guard, Named, NewFile, Record, draw_spectrum, s
 use crate::plain;
 use crate::raster::{Framebuffer, Region};
 use crate::scene::Scene;
-use crate::viewer::{PictureSpec, Restored, SceneSource, SpectrumFound, SpectrumPlace, spectrum_of};
+use crate::viewer::{PictureSpec, Restored, SceneSource, SpectrumFound, SpectrumPlace, scene_title, spectrum_of};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
 const SHAPE: u32 = 1;
@@ -90,7 +90,7 @@ pub(super) fn run(options: &SpectrumOptions, restored: Option<&Restored>) -> Res
     let (found, scene) = on_threads(threads, || find(options, region, restored, &mut guard))??;
     let report = Report::new(options, &found);
     if let Some(output) = &options.output {
-        let picture = on_threads(threads, || draw_spectrum(&found.analysis, &report.title()))?;
+        let picture = on_threads(threads, || draw_spectrum(&found.analysis, &report.heading(options)))?;
         let record = record(options, &scene, output);
         save_picture(&picture, Some(&record), Destination::by_user(output), &guard)
             .map_err(|error| unwritable(output, &error))?;
@@ -109,7 +109,8 @@ pub(super) fn run(options: &SpectrumOptions, restored: Option<&Restored>) -> Res
 pub(super) fn picture_of(options: &SpectrumOptions, output: &Path) -> Result<(Framebuffer, Record, Guard), Failure> {
     let mut guard = Guard::default();
     let (found, scene) = find(options, region(options)?, None, &mut guard)?;
-    let picture = draw_spectrum(&found.analysis, &Report::new(options, &found).title());
+    let heading = Report::new(options, &found).heading(options);
+    let picture = draw_spectrum(&found.analysis, &heading);
     Ok((picture, record(options, &scene, output), guard))
 }
 
@@ -197,10 +198,14 @@ impl Report {
         }
     }
 
+    /// What the picture says above: no folder, for one that is drawn again from elsewhere must be the same.
+    fn heading(&self, options: &SpectrumOptions) -> String {
+        self.title(&scene_title(&SceneSource::from_address(&options.scene)))
+    }
+
     /// What it is of, and where.
-    fn title(&self) -> String {
+    fn title(&self, scene: &str) -> String {
         let [x, y, columns, rows] = self.region;
-        let scene = plain::line(&self.scene);
         match (&self.level, self.of) {
             (Some(level), _) => format!("{}, {columns} x {rows} texels from {x}, {y}", plain::line(level)),
             (None, "difference") => format!("{scene} less the truth, {columns} x {rows} pixels from {x}, {y}"),
@@ -210,7 +215,8 @@ impl Report {
     }
 
     fn text(&self, options: &SpectrumOptions) -> String {
-        let mut lines = vec![format!("{}: {}", self.of, self.title())];
+        let title = self.title(&plain::line(&self.scene));
+        let mut lines = vec![format!("{}: {title}", self.of)];
         let asked = options.region.unwrap_or(Region::of_size(options.picture.size.0));
         if self.level.is_none() && asked.width.max(asked.height) > SpectrumAnalysis::LONGEST {
             lines.push(format!(

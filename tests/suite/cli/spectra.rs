@@ -167,6 +167,15 @@ fn spectrum_pictures_tell_how_they_were_made() {
     }
     let said = done(folder.path(), &["rerun", "s.png", "--check"]);
     assert!(said.starts_with("s.png: the same, all"), "{said}");
+    let elsewhere = tempfile::tempdir().unwrap();
+    let said = done(
+        elsewhere.path(),
+        &["rerun", folder.path().join("s.png").to_str().unwrap(), "--check"],
+    );
+    assert!(
+        said.contains(": the same, all"),
+        "no folder stands in the picture: {said}"
+    );
     // Its scene and settings stand for the picture, as those of a board do.
     done(folder.path(), &["render", "s.png", "-o", "again.png"]);
     let frame = image::open(folder.path().join("again.png")).unwrap();

@@ -11,7 +11,7 @@ use crate::viewer::settings::PixelZoom;
 use crate::viewer::view::panes::{Moved, Pane, Panes};
 use crate::viewer::view::pointer::window_pixel;
 
-/// Screen pixels between two pictures side by side.
+/// Screen pixels between two pictures side by side at least: one more where the rest is odd.
 const GAP: u32 = 2;
 
 /// Where frames lie in the window at this moment.
@@ -222,13 +222,38 @@ fn free_screen(zoom: PixelZoom, free: &PixelRect) -> Option<PixelRect> {
     Some(PixelRect { x, y, width, height })
 }
 
-/// The left and right half of the free part, of one size; `None` where there is no room.
+/// The left and right half of the free part, of one size and out to its edges; `None` where there is no room.
 fn halves(free: PixelRect) -> Option<[PixelRect; 2]> {
     let width = free.width.checked_sub(GAP)? / 2;
     let first = PixelRect { width, ..free };
     let second = PixelRect {
-        x: free.x + i64::from(width + GAP),
+        x: free.right() - i64::from(width),
         ..first
     };
     (width > 0).then_some([first, second])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_reach_both_edges_of_windows_of_any_width() {
+        for width in 4..12 {
+            let free = PixelRect {
+                x: 3,
+                y: 5,
+                width,
+                height: 7,
+            };
+            let [left, right] = halves(free).expect("room");
+            assert_eq!(
+                (left.width, left.height),
+                (right.width, right.height),
+                "{width}: of one size"
+            );
+            assert_eq!((left.x, right.right()), (free.x, free.right()), "{width}: edges");
+            assert!((2..=3).contains(&(right.x - left.right())), "{width}: the line between");
+        }
+    }
 }

@@ -14,11 +14,12 @@ use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
+use crate::geometry::View;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
 use crate::scene::{self, FolderResources};
-use crate::viewer::{SceneSource, as_path, plain_record};
+use crate::viewer::{SceneSource, as_path, input_file, plain_record};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
 const SHAPE: u32 = 1;
@@ -135,7 +136,8 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
 pub(super) fn picture(options: &DiffOptions, output: &Path) -> Result<(Framebuffer, Record, Guard), Failure> {
     with_pair(options, |pair, ours| {
         let (frame, _) = shown(pair, options);
-        Ok((frame, record(pair.size(), output, options), guard(options, ours)))
+        let record = record(pair.size(), output, options, ours);
+        Ok((frame, record, guard(options, ours)))
     })
 }
 
@@ -150,6 +152,9 @@ fn with_pair<R>(
             "{}: a scene can be the first of the two only; draw this one with `rasterscope render`",
             second.display()
         )));
+    }
+    if !is_scene(first) {
+        refuse_drawing(options)?;
     }
     let b = Encoded::read(second, options.max_pixels)?;
     let frames = 1 + u64::from(options.output.is_some());
@@ -178,6 +183,18 @@ fn with_pair<R>(
     work(Pair::new(&a, &b).map_err(Failure::input)?, None)
 }
 
+/// Refuses options of drawing where nothing is drawn.
+fn refuse_drawing(options: &DiffOptions) -> Result<(), Failure> {
+    let view = (options.framing.view != View::Default).then_some("view");
+    match options.sampling.given().first().copied().or(view) {
+        Some(option) => Err(Failure::input(format!(
+            "--{option}: of two pictures none is drawn; leave it out, or give a scene in place of {}",
+            options.a.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Our drawing of the scene that is A, as large as B.
 fn drawing(options: &DiffOptions, size: [u32; 2]) -> PictureOptions {
     PictureOptions {
@@ -188,7 +205,7 @@ fn drawing(options: &DiffOptions, size: [u32; 2]) -> PictureOptions {
 }
 
 /// Whether a path names a scene and no picture.
-fn is_scene(path: &Path) -> bool {
+pub(super) fn is_scene(path: &Path) -> bool {
     matches!(SceneSource::from_address(path), SceneSource::Gallery(_)) || scene::is_document(path)
 }
 
@@ -266,7 +283,7 @@ fn save(
     options: &DiffOptions,
 ) -> Result<PictureReport, Failure> {
     let (frame, gain) = shown(pair, options);
-    let record = record(pair.size(), output, options);
+    let record = record(pair.size(), output, options, ours);
     let guard = guard(options, ours);
     save_picture(&frame, Some(&record), Destination::by_user(output), &guard)
         .map_err(|error| unwritable(output, &error))?;
@@ -278,7 +295,7 @@ fn save(
 }
 
 /// The record of a difference picture: its command line compares two files, so that no scene comes back from it.
-fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
+fn record(size: [u32; 2], output: &Path, options: &DiffOptions, ours: Option<&Picture>) -> Record {
     let path = |path: &Path| as_path(&path.display().to_string());
     let mut words = vec!["diff".to_owned(), path(&options.a), path(&options.b)];
     words.extend([
@@ -299,7 +316,15 @@ fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
         // The size is that of B.
         words.extend(spec(&options.a, &drawing(options, size)).options().drain(2..));
     }
-    plain_record(words, size)
+    // A scene of the gallery is no file.
+    let drawn = ours.map(|ours| ours.record(output));
+    let (scene, textures) = drawn.map_or((None, Vec::new()), |drawn| (drawn.scene, drawn.textures));
+    let a = scene.unwrap_or_else(|| input_file(&options.a, output));
+    Record {
+        inputs: vec![a, input_file(&options.b, output)],
+        textures,
+        ..plain_record(words, size)
+    }
 }
 
 impl Report {
@@ -354,7 +379,13 @@ impl Report {
             format!("{} x {} pixels", self.width, self.height),
         ];
         if self.differing_pixels == 0 {
-            lines.push("The pictures are equal: all pixels, byte for byte.".to_owned());
+            let aside = match self.channels {
+                3 => "",
+                _ => "\nColours of transparent pixels are not compared.",
+            };
+            lines.push(format!(
+                "The pictures are equal: all pixels, in 8 bits per channel.{aside}"
+            ));
         }
         let count = |count| format!("{count} of {pixels} ({})", share(count));
         lines.push(format!("differing pixels   {}", count(self.differing_pixels)));

@@ -11,7 +11,9 @@ use super::{memory, progress, render, view};
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::raster::Framebuffer;
 use crate::scene::DialectChoice;
-use crate::viewer::{Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, as_path, plain_record, slides};
+use crate::viewer::{
+    Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, as_path, input_file, plain_record, slides,
+};
 
 /// The size of slides where none is asked for.
 const SLIDE: [u32; 2] = [1600, 900];
@@ -33,10 +35,12 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     if let Some(folder) = &options.slides {
         let slides = Slides::new(options)?;
         let guard = slides.guard(options.view.force)?;
-        return slides.draw(|slide, path, record| {
+        return slides.draw(|slide, number| {
+            let path = slides.path(number);
             // Only now, so that a lesson that is refused leaves no empty folder.
             std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
-            let saved = save_picture(slide, Some(record), Destination::by_program(&path), &guard);
+            let record = slides.record(number, &path);
+            let saved = save_picture(slide, Some(&record), Destination::by_program(&path), &guard);
             progress::done();
             saved.map_err(|error| render::unwritable_by("--slides", &path, &error))
         });
@@ -50,11 +54,12 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     view::run(&view, None)
 }
 
-/// The one slide that the options ask for, and its record.
-pub(super) fn picture(options: &LessonOptions) -> Result<(Framebuffer, Record), Failure> {
+/// The one slide that the options ask for, and its record for the file `output`.
+pub(super) fn picture(options: &LessonOptions, output: &Path) -> Result<(Framebuffer, Record), Failure> {
     let mut only = None;
-    Slides::new(options)?.draw(|slide, _, record| {
-        only = Some((slide.clone(), record.clone()));
+    let slides = Slides::new(options)?;
+    slides.draw(|slide, number| {
+        only = Some((slide.clone(), slides.record(number, output)));
         Ok(())
     })?;
     only.ok_or_else(|| Failure::other("a lesson without steps"))
@@ -117,15 +122,40 @@ impl<'a> Slides<'a> {
         self.folder.join(format!("{number:0digits$}.png"))
     }
 
-    /// Draws the slides and hands each over, with its file and its record.
-    fn draw(&self, mut take: impl FnMut(&Framebuffer, PathBuf, &Record) -> Result<(), Failure>) -> Result<(), Failure> {
+    /// Draws the slides and hands each over, with its number.
+    fn draw(&self, mut take: impl FnMut(&Framebuffer, usize) -> Result<(), Failure>) -> Result<(), Failure> {
         progress::count(self.numbers.clone().count());
         memory::ask_for(memory::pixels(self.size).saturating_mul(3))?;
         slides(&self.lesson, self.size, self.numbers.clone(), |number, slide| {
-            let record = record(&self.source, self.folder, number, self.size);
-            take(slide, self.path(number), &record).map_err(SlideFailure::Taken)
+            take(slide, number).map_err(SlideFailure::Taken)
         })
         .map_err(|failure| self.failure(failure))
+    }
+
+    /// The record of the slide with this number, for the file `output`: words and picture, so that no scene comes back from
+    /// it.
+    fn record(&self, number: usize, output: &Path) -> Record {
+        let [width, height] = self.size;
+        let words = [
+            "lesson".to_owned(),
+            as_path(&self.source.address()),
+            "--slides".to_owned(),
+            as_path(&self.folder.display().to_string()),
+            "--size".to_owned(),
+            format!("{width}x{height}"),
+            format!("--step={number}"),
+        ];
+        let step = number.checked_sub(1).and_then(|index| self.lesson.steps.get(index));
+        // Lessons of the program and scenes of the gallery are no files.
+        let inputs = match (&self.source, step.map(|step| &step.scene)) {
+            (LessonSource::File(lesson), Some(SceneSource::File(scene))) => vec![lesson, scene],
+            (LessonSource::File(lesson), _) => vec![lesson],
+            (LessonSource::BuiltIn(_), _) => Vec::new(),
+        };
+        Record {
+            inputs: inputs.into_iter().map(|path| input_file(path, output)).collect(),
+            ..plain_record(words.to_vec(), self.size)
+        }
     }
 
     /// In the terms of the command line.
@@ -136,7 +166,7 @@ impl<'a> Slides<'a> {
             SlideFailure::Drawn(error @ SlideError::Scene { step, .. }) if self.is_starved(step) => {
                 Failure::other(error)
             }
-            SlideFailure::Drawn(error) => Failure::input(error),
+            SlideFailure::Drawn(error) => Failure::input(format!("{}: {error}", self.source.address())),
         }
     }
 
@@ -187,20 +217,6 @@ impl<'a> Slides<'a> {
             }
         }
     }
-}
-
-/// The record of the slide with this number in a folder: words and picture, so that no scene comes back from it.
-fn record(lesson: &LessonSource, folder: &Path, number: usize, size: [u32; 2]) -> Record {
-    let words = [
-        "lesson".to_owned(),
-        as_path(&lesson.address()),
-        "--slides".to_owned(),
-        as_path(&folder.display().to_string()),
-        "--size".to_owned(),
-        format!("{}x{}", size[0], size[1]),
-        format!("--step={number}"),
-    ];
-    plain_record(words.to_vec(), size)
 }
 
 /// What went wrong with a slide.

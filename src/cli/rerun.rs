@@ -1,6 +1,6 @@
 //! `rasterscope rerun`: draws again what a picture shows, by the command line in its file, and compares.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::arguments::Verb;
 use super::failure::{Failure, print, print_error};
@@ -14,7 +14,7 @@ use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
-use crate::viewer::{Restored, SceneSource, shell_line};
+use crate::viewer::{Restored, SceneSource, changed_inputs, found_file, shell_line};
 
 /// A picture that was drawn again.
 struct Again {
@@ -58,12 +58,16 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
         print_error(&format!("{}: {fonts}", shot.display()));
     }
     let verb = verb_of(&record.arguments).map_err(|error| at_fault(shot, &error))?;
-    let again = on_threads(options.threads, || draw(options, verb, &record))??;
+    let verb = with_inputs_found(options, verb, &record)?;
+    let mut again = on_threads(options.threads, || draw(options, verb, &record))??;
+    if !record.inputs.is_empty() {
+        again.change = changed_inputs(&record, &again.record, shot);
+    }
     if options.check {
         return check(shot, &again);
     }
     if let Some(change) = &again.change {
-        print_error(change);
+        print_error(&format!("{change}: the picture may differ"));
     }
     let output = options.output.as_deref().unwrap_or(shot);
     let named = Destination::by_user(output);
@@ -122,7 +126,7 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
             Ok(Again {
                 guard,
                 record: picture.record(output),
-                change: restored.changes(&picture.scene.files),
+                change: restored.changed(&picture.scene.files),
                 frame: picture.into_frame(),
             })
         }
@@ -137,7 +141,7 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
             }
             Ok(Again {
                 guard,
-                change: files.and_then(|files| restored.changes(files)),
+                change: files.and_then(|files| restored.changed(files)),
                 record: sheet.record,
                 frame: sheet.picture,
             })
@@ -154,7 +158,7 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
         }
         Verb::Diff(of_diff) => diff::picture(&of_diff, output).map(protected),
         Verb::Lesson(of_lesson) if of_lesson.slides.is_some() && of_lesson.step.is_some() => {
-            let mut again = alone(lesson::picture(&of_lesson)?);
+            let mut again = alone(lesson::picture(&of_lesson, output)?);
             if options.output.is_some() {
                 lesson::protect(&of_lesson, &mut again.guard)?;
             }
@@ -168,13 +172,69 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
     }
 }
 
+/// The command with the files of a difference or a lesson where they are found now, as scenes are.
+fn with_inputs_found(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Verb, Failure> {
+    let shot = options.shot.as_path();
+    let find = |path: &mut PathBuf, input: usize| {
+        let Some(input) = record.inputs.get(input) else {
+            return Ok(());
+        };
+        let SceneSource::File(named) = SceneSource::from_address(path) else {
+            return Ok(());
+        };
+        *path = found_file(input, &named, shot);
+        if path.is_file() {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{}: it was made from {}, which is not there; put that back, or run its command line with another file: {}",
+            shot.display(),
+            input.address,
+            shell_line(&record.arguments)
+        )))
+    };
+    match verb {
+        Verb::Diff(mut of_diff) => {
+            match &options.scene {
+                Some(scene) if diff::is_scene(&of_diff.a) => of_diff.a.clone_from(scene),
+                Some(_) => return Err(no_scene(shot)),
+                None => find(&mut of_diff.a, 0)?,
+            }
+            find(&mut of_diff.b, 1)?;
+            Ok(Verb::Diff(of_diff))
+        }
+        Verb::Lesson(_) if options.scene.is_some() => Err(no_scene(shot)),
+        Verb::Lesson(mut of_lesson) => {
+            find(&mut of_lesson.lesson, 0)?;
+            Ok(Verb::Lesson(of_lesson))
+        }
+        verb => Ok(verb),
+    }
+}
+
+/// A scene was given for a picture that has none.
+fn no_scene(shot: &Path) -> Failure {
+    Failure::input(format!(
+        "{}: this picture is not drawn from a scene that --scene could name; leave --scene out",
+        shot.display()
+    ))
+}
+
 /// The state that the picture tells, with the scene that the options name.
 fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
     let shot = options.shot.as_path();
     let found = Restored::of_file(shot, read_arguments).map_err(Failure::Input)?;
     let mut restored = found.ok_or_else(|| at_fault(shot, "it is gone"))?;
-    if let Some(scene) = &options.scene {
-        restored.spec.scene = SceneSource::from_address(scene);
+    match (&options.scene, &restored.spec.scene) {
+        (Some(scene), _) => restored.spec.scene = SceneSource::from_address(scene),
+        (None, SceneSource::File(path)) if !path.exists() => {
+            return Err(Failure::input(format!(
+                "{}: its scene {} is not there; name it with --scene FILE",
+                shot.display(),
+                path.display()
+            )));
+        }
+        (None, _) => {}
     }
     Ok(restored)
 }
@@ -190,10 +250,8 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
     };
     let bytes = FolderResources::read_file(shot).map_err(|error| unreadable(&error))?;
     let size = compare::encoded_size(&bytes).map_err(|error| unreadable(&error))?;
-    let why = again
-        .change
-        .as_ref()
-        .map_or(String::new(), |change| format!("; {}", plain::line(change)));
+    let change = again.change.as_ref().map(|change| plain::line(change));
+    let why = change.as_ref().map_or(String::new(), |change| format!("; {change}"));
     let now = [again.frame.width(), again.frame.height()];
     if size != now {
         let ([w, h], [w2, h2]) = (size, now);
@@ -205,7 +263,8 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
     let all = again.frame.pixels().len();
     let different = compare::count_different(&bytes, &again.frame).map_err(|error| unreadable(&error))?;
     if different == 0 {
-        return print(&format!("{name}: the same, all {all} pixels{why}"));
+        let although = change.map_or(String::new(), |change| format!(", although {change}"));
+        return print(&format!("{name}: the same, all {all} pixels{although}"));
     }
     print(&format!("{name}: differs in {different} of {all} pixels{why}"))?;
     Err(Failure::Different)

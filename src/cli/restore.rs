@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::picture::spec_of_render;
 use crate::figure::Record;
 use crate::scene;
-use crate::viewer::{Grammar, PictureSetting, PictureSpec, Restored, SheetRequest, picture};
+use crate::viewer::{Grammar, PictureSetting, PictureSpec, Restored, SceneSource, SheetRequest, picture};
 
 /// Longest side of a window that comes back from a picture, in pixels.
 const MAX_RESTORED_WINDOW: u32 = 4096;
@@ -81,7 +81,15 @@ pub(super) fn restored(scene: &Path) -> Result<Option<Restored>, Failure> {
     if !is_png || !scene.is_file() {
         return Ok(None);
     }
-    Restored::of_file(scene, read_arguments).map_err(Failure::Input)
+    let restored = Restored::of_file(scene, read_arguments).map_err(Failure::Input)?;
+    match restored.as_ref().map(|restored| &restored.spec.scene) {
+        Some(SceneSource::File(path)) if !path.exists() => Err(Failure::input(format!(
+            "{0}: its scene {1} is not there; give the scene instead, or draw the picture with `rasterscope rerun {0} --scene FILE -o OUT.png`",
+            scene.display(),
+            path.display()
+        ))),
+        _ => Ok(restored),
+    }
 }
 
 /// The scene's path, as the command line takes it.

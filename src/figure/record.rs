@@ -11,6 +11,7 @@
 //! | `differs` | where the picture is not what the command line makes: how; else `null` |
 //! | `scene` | what was drawn: `address` as in the command line, `beside` the same relative to the picture's folder, `sha256` |
 //! | `textures` | `address` in the document and `sha256` of each file |
+//! | `inputs` | as `scene`, of what else was read: both pictures of a difference, the lesson and the scene of a slide; only where there are any |
 //! | `view`, `size`, `settings` | as in the command line; of the settings those that differ from their defaults |
 //!
 //! Files come from anywhere, so that nothing in them is trusted: chunks are stepped over, the record has a ceiling, and
@@ -51,6 +52,10 @@ pub struct Record {
     pub scene: Option<RecordedFile>,
     /// The texture files of the scene.
     pub textures: Vec<RecordedFile>,
+    /// What else was read, in the order of the command line: the pictures of a difference, or a lesson and the scene of its
+    /// step.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<RecordedFile>,
     /// Which part of the scene is seen.
     pub view: String,
     /// Width and height in pixels.
@@ -63,9 +68,9 @@ pub struct Record {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RecordedFile {
-    /// The scene's address on the command line, or the texture's in the document.
+    /// Its address on the command line, or a texture's in the document.
     pub address: String,
-    /// The scene's path from the picture's folder, for both may be moved together.
+    /// Its path from the picture's folder, for both may be moved together.
     pub beside: Option<String>,
     /// SHA-256 of its bytes in hexadecimal; empty where it is not known.
     pub sha256: String,

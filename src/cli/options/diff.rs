@@ -18,13 +18,13 @@ pub(in crate::cli) struct DiffOptions {
     #[arg(short, long, value_name = "DIFF.png")]
     pub(in crate::cli) output: Option<PathBuf>,
     /// Which difference the picture shows
-    #[arg(long, default_value = Measure::default().name(), value_enum)]
+    #[arg(long, default_value = Measure::default().name(), value_enum, requires = "output")]
     pub(in crate::cli) mode: Measure,
     /// What the shown difference is multiplied with
-    #[arg(long, default_value = "1", value_name = "G", value_parser = gain, allow_negative_numbers = true)]
+    #[arg(long, default_value = "1", value_name = "G", value_parser = gain, allow_negative_numbers = true, requires = "output")]
     pub(in crate::cli) gain: f32,
     /// Choose the gain that makes the largest difference the last colour
-    #[arg(long, conflicts_with = "gain")]
+    #[arg(long, conflicts_with = "gain", requires = "output")]
     pub(in crate::cli) normalize: bool,
     /// Levels of 255 that a channel may differ by without an exit status of 1
     #[arg(long, default_value_t = 0, value_name = "T", allow_negative_numbers = true)]

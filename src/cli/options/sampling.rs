@@ -19,16 +19,11 @@ use crate::viewer::{PictureSetting, Settings};
 pub(in crate::cli) struct SamplingOptions {
     settings: Settings,
     /// Options that stand on the command line.
-    #[cfg_attr(
-        not(feature = "window"),
-        expect(dead_code, reason = "only windows remember settings")
-    )]
     given: Vec<&'static str>,
 }
 
 impl SamplingOptions {
     /// The options that were given, by their names.
-    #[cfg(feature = "window")]
     pub(in crate::cli) fn given(&self) -> &[&'static str] {
         &self.given
     }
@@ -155,7 +150,8 @@ pub(in crate::cli) fn sampling_of(words: impl Iterator<Item = String>) -> Result
     let read = SamplingOnly::try_parse_from(words);
     let sampling = read.map_err(|error| one_line(&error.to_string(), None))?.sampling;
     match sampling.refusal() {
-        Some(refusal) => Err(one_line(&refusal, None)),
+        // It has its cure, whichever command asks.
+        Some(refusal) => Err(refusal),
         None => Ok(sampling),
     }
 }

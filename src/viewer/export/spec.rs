@@ -6,7 +6,7 @@ use crate::figure::{InsetSpec, Record, RecordedFile};
 use crate::geometry::View;
 use crate::plain;
 use crate::render::RenderSettings;
-use crate::scene::{self, DialectChoice, FileDigest, Scene};
+use crate::scene::{self, DialectChoice, FileDigest, FolderResources, Scene};
 use crate::viewer::library::SceneSource;
 use crate::viewer::settings::{Settings, picture};
 
@@ -170,6 +170,16 @@ fn scene_file(source: &SceneSource, scene: &Scene, output: &Path) -> RecordedFil
             .document
             .map(|digest| digest.to_string())
             .unwrap_or_default(),
+    }
+}
+
+/// A file that a picture was made from, as the record of the picture `output` names it.
+pub fn input_file(path: &Path, output: &Path) -> RecordedFile {
+    let bytes = FolderResources::read_file(path).ok();
+    RecordedFile {
+        address: path.display().to_string(),
+        beside: relative_path(output.parent().unwrap_or(Path::new("")), path),
+        sha256: bytes.map_or(String::new(), |bytes| FileDigest::of(&bytes).to_string()),
     }
 }
 

@@ -170,7 +170,23 @@ fn diff_prints_text_that_fits_a_terminal() {
         "80 columns: {text}"
     );
     let text = String::from_utf8(run(folder.path(), &["a.png", "a.png"]).stdout).unwrap();
-    assert!(text.contains("equal") && text.contains("infinite"), "{text}");
+    assert!(
+        text.contains("equal: all pixels, in 8 bits per channel.\n") && text.contains("infinite"),
+        "{text}"
+    );
+    // Neither is compared, and the text says so.
+    for (name, red) in [("c.png", 1), ("d.png", 2)] {
+        let pixel = image::Rgba([red, 0, 0, 0_u16]);
+        let picture = image::ImageBuffer::from_pixel(4, 3, pixel);
+        image::DynamicImage::ImageRgba16(picture)
+            .save(folder.path().join(name))
+            .unwrap();
+    }
+    let text = String::from_utf8(run(folder.path(), &["c.png", "d.png"]).stdout).unwrap();
+    assert!(
+        text.contains("in 8 bits per channel.\nColours of transparent pixels are not compared."),
+        "{text}"
+    );
 }
 
 #[test]
@@ -251,6 +267,13 @@ fn diff_answers_mistakes_in_one_line() {
         (&["a.svg", "a.png"], &["a.svg"]),
         (&["a.png"], &["<B>"]),
         (&["a.png", "b.png", "--gain", "-1"], &["gain"]),
+        (&["a.png", "b.png", "--mode", "signed"], &["--output"]),
+        (&["a.png", "b.png", "--normalize"], &["--output"]),
+        (
+            &["a.png", "b.png", "--sample-rate", "16"],
+            &["--sample-rate: of two pictures none is drawn", "in place of a.png"],
+        ),
+        (&["a.png", "b.png", "--view", "canvas"], &["--view: of two pictures"]),
     ] {
         assert_refused(&run(folder.path(), arguments), arguments, words);
     }

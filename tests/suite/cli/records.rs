@@ -159,6 +159,22 @@ fn rerun_tells_how_much_differs_and_why() {
         output.status.success() && warned.lines().count() == 1 && warned.contains("changed since"),
         "{warned}"
     );
+    // A change that no pixel shows, and nothing is guessed about what was compared.
+    fs::write(work.path().join("t.png"), texture(0xffff_8000)).unwrap();
+    fs::write(work.path().join("a.svg"), format!("{SCENE}\n")).unwrap();
+    let said = done(work.path(), &["rerun", "out/a.png", "--check"]);
+    assert!(
+        said.contains("the same, all 6300 pixels, although the scene ") && !said.contains("may differ"),
+        "{said}"
+    );
+    fs::write(work.path().join("a.svg"), SCENE).unwrap();
+    fs::remove_file(work.path().join("t.png")).unwrap();
+    let output = run(work.path(), &["rerun", "out/a.png", "--check"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        said.contains(" pixels; the texture t.png is gone since out/a.png was made") && !said.contains("SHA-256"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -185,7 +201,22 @@ fn rerun_refuses_what_tells_nothing() {
         fs::write(work.path().join("hostile.png"), bytes).unwrap();
         refused(&["rerun", "hostile.png", "--check"], &[word]);
     }
+    done(work.path(), &["render", "a.svg", "-o", "out/s.png", "--size", "30x20"]);
+    fs::rename(work.path().join("a.svg"), work.path().join("b.svg")).unwrap();
+    refused(
+        &["rerun", "out/s.png", "--check"],
+        &["out/s.png: its scene a.svg is not there", "--scene FILE"],
+    );
+    refused(
+        &["render", "out/s.png", "-o", "c.png"],
+        &["out/s.png: its scene a.svg", "--scene FILE"],
+    );
+    done(work.path(), &["rerun", "out/s.png", "--check", "--scene", "b.svg"]);
     done(work.path(), &["diff", "plain.png", "plain.png", "-o", "d.png"]);
+    refused(
+        &["render", "d.png", "-o", "c.png"],
+        &["d.png: this is the difference of two pictures, from which no scene comes back; give a scene"],
+    );
     let told = record(&work.path().join("d.png"));
     assert_eq!(
         told.command_line, "rasterscope diff plain.png plain.png -o d.png --mode absolute --gain=1",
@@ -248,7 +279,67 @@ fn rerun_draws_differences_and_slides_too() {
     refused(&["--step", "0"], &["--step"]);
     // What is compared changed.
     fs::write(work.path().join("out/a.png"), texture(0xff00_00ff)).unwrap();
-    assert_eq!(said("e.png").status.code(), Some(1), "of another size now");
+    let output = said("e.png");
+    assert_eq!(output.status.code(), Some(1), "of another size now");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        text.contains("out/a.png and one more file changed since e.png was made"),
+        "{text}"
+    );
+}
+
+#[test]
+fn rerun_finds_what_differences_and_slides_are_made_from() {
+    let work = workplace();
+    let lesson = "title = \"T\"\n[[step]]\nscene = \"a.svg\"\ntext = \"See.\"\n";
+    fs::write(work.path().join("l.toml"), lesson).unwrap();
+    let at = |name: &str| work.path().join(name);
+    done(work.path(), &["render", "a.svg", "-o", "a.png", "--size", "40x30"]);
+    done(work.path(), &["diff", "a.png", "a.png", "-o", "out/two.png"]);
+    done(&at("out"), &["diff", "../a.svg", "../a.png", "-o", "scene.png"]);
+    done(
+        work.path(),
+        &["lesson", "l.toml", "--slides", "out/s", "--size", "480x300"],
+    );
+    let told = record(&at("out/s/01.png")).inputs;
+    let beside: Vec<_> = told.iter().map(|input| input.beside.as_deref()).collect();
+    assert_eq!(beside, [Some("../../l.toml"), Some("../../a.svg")], "lesson and scene");
+    assert_eq!(
+        record(&at("out/scene.png")).textures[0].address,
+        "t.png",
+        "of the scene"
+    );
+    let elsewhere = tempfile::tempdir().unwrap();
+    let pictures = ["out/two.png", "out/scene.png", "out/s/01.png"];
+    let check = |name: &str| run(elsewhere.path(), &["rerun", at(name).to_str().unwrap(), "--check"]);
+    for name in pictures {
+        let said = String::from_utf8(check(name).stdout).unwrap();
+        assert!(said.contains("the same, all "), "{name} from another folder: {said}");
+    }
+    // Nothing that is seen changes.
+    fs::write(at("a.svg"), format!("{SCENE}\n")).unwrap();
+    for name in &pictures[1..] {
+        let said = String::from_utf8(check(name).stdout).unwrap();
+        assert!(
+            said.contains(", although ") && said.contains("a.svg changed since"),
+            "{name}: {said}"
+        );
+    }
+    let scene = at("out/two.png");
+    let scene = ["rerun", scene.to_str().unwrap(), "--check", "--scene", "a.svg"];
+    assert_refused(&run(work.path(), &scene), &scene, &["--scene"]);
+    fs::remove_file(at("a.png")).unwrap();
+    for name in &pictures[..2] {
+        let words = ["two.png: it was made from", "scene.png: it was made from"];
+        let output = check(name);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.code() == Some(2)
+                && words.iter().any(|word| told.contains(word))
+                && told.contains("not there"),
+            "{name}: {told}"
+        );
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@ use crate::viewer::LessonCommand;
 use std::io;
 use std::ops::RangeInclusive;
 
+use glam::DVec2;
+
 use crate::figure::{Anchor, TextBlock, TextStyle, Typeface};
 use crate::raster::Framebuffer;
 use crate::viewer::command::Command;
@@ -49,6 +51,16 @@ pub enum SlideError {
         /// See `width`.
         height: u32,
     },
+    /// A pin lies outside.
+    #[error("step {step}: its pin {x},{y} is not in the picture; move the pin, or the view so that it shows it")]
+    PinOutside {
+        /// Number of the step, from 1.
+        step: usize,
+        /// The pin, in user units.
+        x: f64,
+        /// See `x`.
+        y: f64,
+    },
     /// A scene cannot be drawn.
     #[error("step {step}: {problem}")]
     Scene {
@@ -86,6 +98,10 @@ pub fn slides<E: From<SlideError>>(
             let problem = problem.to_owned();
             let step = number + 1;
             return Err(SlideError::Scene { step, problem }.into());
+        }
+        if let Some(pin) = step.pin.filter(|_| viewer.pixels().pinned().is_none()) {
+            let (step, DVec2 { x, y }) = (number + 1, pin);
+            return Err(SlideError::PinOutside { step, x, y }.into());
         }
         let mut slide = Framebuffer::new(size[0], size[1]);
         slide.pixels_mut().fill(PAPER);

@@ -21,7 +21,7 @@ use crate::viewer::lesson::walk::{Before, Walk};
 use crate::viewer::library;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::library::{SceneEntry, SceneState};
-use crate::viewer::settings::{PixelZoom, Settings};
+use crate::viewer::settings::{PixelZoom, Settings, picture};
 use crate::viewer::view::camera::Camera;
 
 /// The open lesson, and what its steps set.
@@ -175,10 +175,8 @@ impl Lessons<'_> {
             against,
             ..
         } = step;
-        for change in settings {
-            if let Some(remark) = change.apply(self.settings) {
-                self.chrome.messages.error(remark);
-            }
+        if let Some(remark) = picture::apply_all(&settings, self.settings) {
+            self.chrome.messages.error(remark);
         }
         if let Some((against, arrangement)) = against {
             self.compare(against);

@@ -16,7 +16,7 @@ use crate::viewer::library::{SceneSource, gallery};
 use crate::viewer::settings::document::{Found, Mistake, mistake, place, short};
 use crate::viewer::settings::picture::SettingChange;
 use crate::viewer::settings::values::{named, point, toggle};
-use crate::viewer::settings::{Toggle, picture};
+use crate::viewer::settings::{Settings, Toggle, picture};
 use crate::viewer::view::camera::ViewNumbers;
 
 /// Most steps of a lesson.
@@ -30,6 +30,9 @@ const LONGEST_TITLE: usize = 200;
 
 /// Longest value of a setting, in bytes: a sample pattern of 256 samples that are written out.
 const LONGEST_VALUE: usize = 4000;
+
+/// The setting that not every pattern takes all values of.
+const RATE: &str = "sample-rate";
 
 /// The keys of a step besides settings.
 const KEYS: [&str; 8] = [
@@ -142,11 +145,13 @@ fn step(
                 let shown = toggle(text(value)?.trim());
                 step.explained = of_form(value, shown, Toggle::FORM)? == Toggle::On;
             }
-            "against" => against = Some(self::against(value, folder)?),
+            "against" => against = Some((self::against(value, folder)?, value.span())),
             "arrange" => arrangement = Some((arrange(value)?, key.span())),
             name => step.settings.push(setting(name, (key, value), folder)?),
         }
     }
+    check_rates(table, &step.settings, against.as_ref())?;
+    let against = against.map(|(against, _)| against);
     step.against = match (against, arrangement) {
         (Some(against), Some((arrangement, _))) => Some((against, arrangement)),
         (Some(against), None) => Some((against, Arrangement::Wipe)),
@@ -159,6 +164,25 @@ fn step(
             at,
             "no scene; add `scene = \"gallery:basic/test4.svg\"`, or a path from the lesson's folder",
         ),
+    }
+}
+
+/// Refuses a sample rate that was written and that the pattern beside it does not take. A rate that nobody wrote becomes the
+/// pattern's own.
+fn check_rates(table: &DeTable<'_>, changes: &[SettingChange], against: Option<&(Against, Range<usize>)>) -> Found<()> {
+    let mut settings = Settings::default();
+    let refusal = picture::apply_all(changes, &mut settings);
+    let written = table.get(RATE).map(Spanned::span);
+    if let Some((refusal, at)) = refusal.zip(written.clone()) {
+        return mistake(at, refusal);
+    }
+    let Some((Against::Changed(changes), at)) = against else {
+        return Ok(());
+    };
+    let is_written = written.is_some() || changes.iter().any(|change| change.option() == RATE);
+    match picture::apply_all(changes, &mut settings) {
+        Some(refusal) if is_written => mistake(at.clone(), refusal),
+        _ => Ok(()),
     }
 }
 
@@ -325,6 +349,22 @@ mod tests {
             (step("samplerate = 4"), "4:1", "sample-rate"),
             (step("sample-rate = 257"), "4:15", "1 to 256"),
             (step("sample-rate = 0x10"), "4:15", "command line"),
+            (
+                step("sample-rate = 3"),
+                "4:15",
+                "takes a square number of samples, not 3",
+            ),
+            (
+                step("pattern = \"msaa-8\"\nsample-rate = 4"),
+                "5:15",
+                "msaa-8 takes 8 samples, not 4",
+            ),
+            (step("against = \"sample-rate 3\""), "4:11", "not 3"),
+            (
+                step("sample-rate = 5\npattern = \"sobol\"\nagainst = \"pattern grid\""),
+                "6:11",
+                "not 5",
+            ),
             (step("sample-rate = [4]"), "4:15", "command line"),
             (step("pattern = \"poisson\""), "4:11", "grid|rotated"),
             (step("view = \"1,2\""), "4:8", "X,Y,SCALE"),
@@ -354,6 +394,19 @@ mod tests {
                 problem.contains(word) && !problem.contains('\n'),
                 "{document}: {problem}"
             );
+        }
+    }
+
+    #[test]
+    fn rates_that_nobody_wrote_are_the_pattern_s() {
+        for line in [
+            "pattern = \"msaa-8\"",
+            "against = \"pattern msaa-8\"",
+            "sample-rate = 5\npattern = \"sobol\"",
+            "sample-rate = 5\npattern = \"sobol\"\nagainst = \"pattern grid, sample-rate 4\"",
+        ] {
+            let document = format!("title = \"T\"\n[[step]]\nscene = \"gallery:basic/test4.svg\"\n{line}\n");
+            assert_eq!(read(&document).map(|lesson| lesson.steps.len()), Ok(1), "{line}");
         }
     }
 

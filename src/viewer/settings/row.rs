@@ -412,6 +412,11 @@ impl PictureSetting {
 }
 
 impl SettingChange {
+    /// The option's name of the setting that it changes.
+    pub fn option(&self) -> &'static str {
+        self.setting.option
+    }
+
     /// Whether it is worth to be repeated while a key is held: a step that ends somewhere.
     pub fn repeats(&self) -> bool {
         matches!(self.to, To::Step(_)) && !self.setting.goes_round

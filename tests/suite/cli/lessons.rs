@@ -287,13 +287,26 @@ fn lesson_mistakes_are_one_line_and_status_2() {
     );
     let bad = path("bad.toml", &LESSON.replace("b.svg", "broken.svg"));
     path("broken.svg", "<svg");
+    let pin = path("pin.toml", &LESSON.replace("40,60", "99999,60"));
+    let rate = path("rate.toml", &LESSON.replace("sample-rate = 16", "sample-rate = 3"));
     let plain = path("plain.txt", "");
     for (arguments, word) in [
         (
             vec![wrong.as_str(), "--slides", out],
             "wrong.toml:7:1: `sample-rat` is unknown",
         ),
-        (vec![long.as_str(), "--slides", out], "step 2: its text does not fit"),
+        (
+            vec![pin.as_str(), "--slides", out],
+            "pin.toml: step 1: its pin 99999,60 is not in the picture",
+        ),
+        (
+            vec![rate.as_str(), "--slides", out],
+            "rate.toml:7:15: pattern grid takes a square number",
+        ),
+        (
+            vec![long.as_str(), "--slides", out],
+            "long.toml: step 2: its text does not fit",
+        ),
         (vec![bad.as_str(), "--slides", out], "step 2: "),
         (vec![plain.as_str()], "no lesson"),
         (vec!["nowhere.toml"], "nowhere.toml: cannot be read"),

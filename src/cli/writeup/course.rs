@@ -8,6 +8,7 @@ use glam::DVec2;
 use crate::cli::failure::{Failure, print_error};
 use crate::cli::options::writeup::WriteupOptions;
 use crate::compare;
+use crate::figure::InsetPlace;
 use crate::scene::{self, Dialect, DialectChoice, FolderResources};
 use crate::viewer::{gallery, is_folder_of_course};
 
@@ -53,6 +54,9 @@ pub(super) enum Subject {
     /// The student's entry for the competition.
     Competition,
 }
+
+/// The pin in the student's own picture.
+pub(super) const OWN: &str = "own";
 
 const RATES: [&[&str]; 2] = [&[], &["--sample-rate=16"]];
 const TEXELS: [&[&str]; 2] = [&[], &["--pixel-sampling=bilinear"]];
@@ -147,7 +151,7 @@ pub(super) static ITEMS: &[Item] = &[
                 "--pixel-sampling=nearest,bilinear",
                 "--size=480x480",
             ],
-            pin("own", LEVELS),
+            pin(OWN, LEVELS),
         )
     },
     sheet(
@@ -197,6 +201,9 @@ pub(super) static ITEMS: &[Item] = &[
     },
 ];
 
+/// The longest side of a picture in a panel that is easily seen, in pixels.
+const EASILY_SEEN: f64 = 150.0;
+
 /// Where scenes are found, and the files that are written for them.
 pub(super) struct Scenes<'a> {
     options: &'a WriteupOptions,
@@ -205,6 +212,10 @@ pub(super) struct Scenes<'a> {
     pub(super) files: Vec<(PathBuf, Vec<u8>)>,
     /// The view of the student's own picture: it is seen from so far that its texture is minified.
     own_view: String,
+    /// The canvas of its scene.
+    own_canvas: DVec2,
+    /// Whether an earlier write-up in the same folder showed another picture.
+    own_changed: bool,
     /// Whether the folder of scenes is read as the course's.
     is_of_course: bool,
 }
@@ -224,6 +235,8 @@ impl<'a> Scenes<'a> {
             files: vec![(folder.join("triangle.svg"), TRIANGLE.as_bytes().to_vec())],
             folder,
             own_view: String::new(),
+            own_canvas: DVec2::ZERO,
+            own_changed: false,
             is_of_course: options.scenes.as_deref().is_some_and(is_folder_of_course),
         };
         scenes.make_own()?;
@@ -321,14 +334,44 @@ impl<'a> Scenes<'a> {
         };
         let [width, height] = size.map(f64::from);
         // The canvas has one unit for each texel. A pixel spans four of them each way: fewer where the picture would be too
-        // small to see, more where it would not fit the panel.
-        let scale = (0.25_f64).max(150.0 / width.max(height)).min(1.0);
-        let scale = scale.min(400.0 / width.max(height));
+        // small to see, but two at least, for else no level could be told from another; more where it would not fit the panel.
+        let longest = width.max(height);
+        let scale = (0.25_f64).max(EASILY_SEEN / longest).min(0.5);
+        let scale = scale.min(400.0 / longest);
+        if longest * scale < EASILY_SEEN {
+            print_error(&format!(
+                "{name}: {width} x {height} pixels, zoomed out, are few to see levels in; give a picture of {} or more with --own",
+                2.0 * EASILY_SEEN
+            ));
+        }
         self.own_view = format!("{},{},{scale}", width / 2.0, height / 2.0);
-        self.files
-            .push((self.folder.join("own.svg"), own_scene(size, texture).into_bytes()));
-        self.files.push((self.folder.join(texture), bytes));
+        self.own_canvas = DVec2::new(width, height);
+        let scene = (self.folder.join("own.svg"), own_scene(size, texture).into_bytes());
+        let files = [scene, (self.folder.join(texture), bytes)];
+        let was = |path: &Path| FolderResources::read_file(path).ok();
+        self.own_changed =
+            was(&files[0].0).is_some() && files.iter().any(|(path, bytes)| was(path).as_ref() != Some(bytes));
+        self.files.extend(files);
         Ok(())
+    }
+
+    /// Why a pin of an earlier write-up says nothing about the student's own picture; `None` where it does.
+    pub(super) fn why_stale(&self, at: InsetPlace) -> Option<String> {
+        // Who names a file of pins means those in it.
+        let is_other = self.own_changed && self.options.pins.is_none();
+        let other = is_other.then(|| "the picture is another than it was proposed for".to_owned());
+        self.why_outside(at).or(other)
+    }
+
+    /// Says that a place lies outside the student's own picture; `None` where it does not.
+    pub(super) fn why_outside(&self, at: InsetPlace) -> Option<String> {
+        let DVec2 { x, y } = self.own_canvas;
+        match at {
+            InsetPlace::User(at) if at.clamp(DVec2::ZERO, self.own_canvas) != at => {
+                Some(format!("it lies outside the picture of {x} x {y} pixels"))
+            }
+            _ => None,
+        }
     }
 }
 
@@ -369,6 +412,37 @@ fn own_scene([width, height]: [u32; 2], texture: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::options::writeup::Assignment;
+
+    #[test]
+    fn pins_outside_of_the_own_picture_are_stale() {
+        let options = |pins: Option<&str>| WriteupOptions {
+            assignment: Assignment::Course,
+            output: "out".into(),
+            scenes: None,
+            own: None,
+            robot: None,
+            force: false,
+            pins: pins.map(PathBuf::from),
+            threads: None,
+        };
+        let (named, unnamed) = (options(Some("pins.toml")), options(None));
+        let mut scenes = Scenes {
+            options: &named,
+            folder: PathBuf::new(),
+            files: Vec::new(),
+            own_view: String::new(),
+            own_canvas: DVec2::new(100.0, 60.0),
+            own_changed: true,
+            is_of_course: false,
+        };
+        let at = |x: f64, y: f64| InsetPlace::User(DVec2::new(x, y));
+        let why = scenes.why_stale(at(254.0, 50.0)).expect("outside");
+        assert!(why.contains("outside the picture of 100 x 60 pixels"), "{why}");
+        assert_eq!(scenes.why_stale(at(99.0, 60.0)), None, "of a file that was named");
+        scenes.options = &unnamed;
+        assert!(scenes.why_stale(at(99.0, 60.0)).is_some(), "another picture");
+    }
 
     #[test]
     fn turned_canvases_are_seen_whole() {

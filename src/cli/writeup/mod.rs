@@ -8,10 +8,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use self::course::{ITEMS, Item, PinnedInset, Scenes, turned_view};
+use self::course::{ITEMS, Item, OWN, PinnedInset, Scenes, turned_view};
 use self::pins::Pins;
 use super::arguments::{self, Verb};
-use super::failure::{Failure, print};
+use super::failure::{Failure, print, print_error};
 use super::options::sampling::sampling_of;
 use super::options::writeup::WriteupOptions;
 use super::picture::spec_of_render;
@@ -39,6 +39,7 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     let scenes = Scenes::new(options)?;
     let pins_file = options.pins.clone().unwrap_or_else(|| folder.join(pins::FILE));
     let mut pins = Pins::read(pins_file, &known_pins())?;
+    forget_stale_pin(&scenes, &mut pins)?;
     let inner = folder.join("scenes");
     std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
     let guard = guard(options);
@@ -95,9 +96,34 @@ pub(super) fn check_pins(text: &str) -> Result<(), Failure> {
     Pins::parse(text, pins::FILE.into(), &known_pins()).map(drop)
 }
 
-/// The names that pins may have.
+/// The names that pins may have, each once.
 fn known_pins() -> Vec<&'static str> {
-    ITEMS.iter().filter_map(|item| Some(item.pin?.name)).collect()
+    let mut names: Vec<&str> = Vec::new();
+    for name in ITEMS.iter().filter_map(|item| Some(item.pin?.name)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Says that the pin in the user's own picture is proposed anew, where that picture is another than the pin was meant for. A
+/// file that somebody else wrote keeps its pins, and those outside of the picture are refused.
+fn forget_stale_pin(scenes: &Scenes<'_>, pins: &mut Pins) -> Result<(), Failure> {
+    let Some(pin) = pins.kept(OWN) else { return Ok(()) };
+    if !pins.is_ours() {
+        let why = scenes.why_outside(pin.at);
+        let cure = "move it, or delete the line, and it is proposed anew";
+        return why.map_or(Ok(()), |why| {
+            Err(Failure::Input(pins.at_fault(OWN, &format!("{why}; {cure}"))))
+        });
+    }
+    let Some(why) = scenes.why_stale(pin.at) else {
+        return Ok(());
+    };
+    let path = pins.path().display();
+    print_error(&format!("{path}: the pin {OWN} is proposed anew, for {why}"));
+    pins.forget(OWN)
 }
 
 /// Draws the figures one after the other.
@@ -135,7 +161,16 @@ fn one(item: &Item, output: &Path, guard: &Guard, scenes: &Scenes<'_>, pins: &mu
         let pin = pins.get(name, proposes)?;
         words.push(format!("--inset={pin}"));
     }
-    match parsed(&words, &scene)? {
+    let figure = draw(item, (&words, &scene), output, guard);
+    figure.map_err(|failure| match item.pin {
+        Some(pin) => pins.blamed(pin.name, failure),
+        None => failure,
+    })
+}
+
+/// Draws what the words ask for of a scene and writes it.
+fn draw(item: &Item, (words, scene): (&[String], &str), output: &Path, guard: &Guard) -> Result<Figure, Failure> {
+    match parsed(words, scene)? {
         Verb::Sheet(options) => {
             let named = Destination::by_program(output);
             sheet::check(&sheet::request(&options).map_err(Failure::Input)?, named, guard)?;
@@ -147,7 +182,7 @@ fn one(item: &Item, output: &Path, guard: &Guard, scenes: &Scenes<'_>, pins: &mu
                 ..figure
             })
         }
-        _ => render(spec_of(&words, &scene)?, output, guard),
+        _ => render(spec_of(words, scene)?, output, guard),
     }
 }
 

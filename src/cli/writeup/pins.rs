@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::io;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
+use toml::Spanned;
 
 use crate::cli::failure::Failure;
 use crate::cli::picture::Picture;
@@ -27,6 +29,8 @@ pub(super) struct Pins {
     /// The file as it was, with its comments.
     text: String,
     places: BTreeMap<String, InsetSpec>,
+    /// Where those of the file stand in its text.
+    spans: BTreeMap<String, Range<usize>>,
     /// Names of those that were proposed since.
     new: Vec<String>,
 }
@@ -53,33 +57,86 @@ impl Pins {
     /// The pins in `text`, which is that of the file `path`.
     pub(super) fn parse(text: &str, path: PathBuf, known: &[&str]) -> Result<Self, Failure> {
         let refused = |why: String| Failure::input(format!("{}: {why}", path.display()));
-        let lines: BTreeMap<String, String> = toml::from_str(text).map_err(|error| {
-            let line = error
-                .span()
-                .map_or(1, |span| text[..span.start.min(text.len())].lines().count().max(1));
+        let lines: BTreeMap<Spanned<String>, Spanned<String>> = toml::from_str(text).map_err(|error| {
+            let line = line_of(text, error.span().map_or(0, |span| span.start));
             refused(format!(
                 "line {line}: {}; a pin is a line such as test4 = \"u614,777:16@8:auto\"",
                 error.message()
             ))
         })?;
-        let mut places = BTreeMap::new();
-        for (name, pin) in lines {
+        let (mut places, mut spans) = (BTreeMap::new(), BTreeMap::new());
+        for (key, value) in lines {
+            let span = key.span().start..value.span().end;
+            let (name, line) = (key.into_inner(), line_of(text, span.start));
             if !known.contains(&name.as_str()) {
                 return Err(refused(format!(
-                    "no figure has the pin {name}; the pins are {}",
+                    "line {line}: no figure has the pin {name}; the pins are {}",
                     known.join(", ")
                 )));
             }
-            let pin = pin.parse().map_err(|error| refused(format!("{name}: {error}")))?;
-            places.insert(name, pin);
+            let pin = value.get_ref().parse();
+            let pin = pin.map_err(|error| refused(format!("line {line}: {name}: {error}")))?;
+            places.insert(name.clone(), pin);
+            spans.insert(name, span);
         }
         let new = Vec::new();
         Ok(Self {
             path,
             text: text.to_owned(),
             places,
+            spans,
             new,
         })
+    }
+
+    /// The pin of that name in the file.
+    pub(super) fn kept(&self, name: &str) -> Option<InsetSpec> {
+        self.spans.get(name).and(self.places.get(name)).copied()
+    }
+
+    /// Takes the pin out of the file, so that it is proposed anew.
+    pub(super) fn forget(&mut self, name: &str) -> Result<(), Failure> {
+        let Some(span) = self.spans.get(name) else {
+            return Ok(());
+        };
+        let start = self.text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+        let end = self.text[span.end..]
+            .find('\n')
+            .map_or(self.text.len(), |end| span.end + end + 1);
+        let text = [&self.text[..start], &self.text[end..]].concat();
+        // The others stand elsewhere now.
+        let known: Vec<&str> = self.spans.keys().map(String::as_str).collect();
+        let Self { places, spans, .. } = Self::parse(&text, self.path.clone(), &known)?;
+        (self.text, self.places, self.spans) = (text, places, spans);
+        Ok(())
+    }
+
+    /// Whether the file was made by a write-up, and may be written anew.
+    pub(super) fn is_ours(&self) -> bool {
+        HEAD.lines().next().is_some_and(|first| self.text.contains(first))
+    }
+
+    /// What is wrong with a pin of the file.
+    pub(super) fn at_fault(&self, name: &str, why: &str) -> String {
+        let line = line_of(&self.text, self.spans.get(name).map_or(0, |span| span.start));
+        format!("{}: line {line}: {name}: {why}", self.path.display())
+    }
+
+    /// A failure of the figure that looks at a pin, in the terms of the file where that is at fault.
+    pub(super) fn blamed(&self, name: &str, failure: Failure) -> Failure {
+        match (failure, self.kept(name)) {
+            (Failure::Input(problem), Some(pin)) => {
+                let why = problem.split_once(&format!("--inset {pin}: "));
+                let own = why.map(|(_, why)| self.at_fault(name, why));
+                Failure::Input(own.unwrap_or(problem))
+            }
+            (failure, _) => failure,
+        }
+    }
+
+    /// The file's name in messages.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// The pin of that name; a new one lies where the pictures that `specs` gives differ most.
@@ -114,6 +171,12 @@ impl Pins {
         }
         Some(NewFile::by_user(&self.path, text.into_bytes()))
     }
+}
+
+/// The line of a byte, from 1.
+fn line_of(text: &str, byte: usize) -> usize {
+    let before = text.as_bytes().iter().take(byte);
+    1 + before.filter(|byte| **byte == b'\n').count()
 }
 
 fn text_of(path: &Path) -> io::Result<String> {
@@ -206,10 +269,36 @@ mod tests {
     }
 
     #[test]
+    fn pins_that_are_forgotten_are_proposed_anew() {
+        let mut pins = read("# mine\nown = \"3,4\" # old\ntest4 = \"5,6\"").expect("two pins");
+        pins.forget("own").expect("the rest is as it was");
+        assert_eq!(
+            (pins.kept("own"), pins.text.as_str()),
+            (None, "# mine\ntest4 = \"5,6\""),
+            "its line"
+        );
+        pins.forget("own").expect("nothing to do");
+        let test4 = pins.kept("test4").expect("the other");
+        let outside = || Failure::input(format!("--inset {test4}: outside"));
+        match pins.blamed("test4", outside()) {
+            Failure::Input(problem) => assert!(problem.ends_with("pins.toml: line 2: test4: outside"), "{problem}"),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(
+            pins.blamed("own", outside()).into_line(),
+            format!("--inset {test4}: outside"),
+            "no pin of the file"
+        );
+    }
+
+    #[test]
     fn pins_at_fault_are_told_in_one_line() {
         for (text, words) in [
-            ("test4 = \"middle\"", "test4: an inset is X,Y"),
-            ("test5 = \"3,4\"", "the pins are test4, own"),
+            ("# mine\ntest4 = \"middle\"", "line 2: test4: an inset is X,Y"),
+            (
+                "own = \"3,4\"\n\ntest5 = \"3,4\"",
+                "line 3: no figure has the pin test5; the pins are test4, own",
+            ),
             ("\ntest4 = ", "line 2:"),
             ("test4 = 5", "line 1:"),
             ("[test4]\nx = 1", "line 1:"),

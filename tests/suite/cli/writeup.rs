@@ -78,13 +78,25 @@ fn writeup_takes_own_files_and_pins() {
         fs::write(at(name), scene).unwrap();
     }
     fs::create_dir(at("out")).unwrap();
-    fs::write(at("out/pins.toml"), "test4 = \"u20,30:8@4:top-left\"\n").unwrap();
+    // The first pin was proposed for another picture.
+    let pins = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for user units.\n# By `rasterscope writeup`.\nown = \"u4,5:8@4:top-left\"\ntest4 = \"u20,30:8@4:top-left\"\n";
+    fs::write(at("out/pins.toml"), pins).unwrap();
+    fs::create_dir(at("out/scenes")).unwrap();
+    fs::write(
+        at("out/scenes/own.svg"),
+        "<!-- Another picture; made by rasterscope. -->",
+    )
+    .unwrap();
     let own = ["--scenes", "svg", "--own", "photo.png", "--robot", "robot.svg"];
     let output = run(folder.path(), &[&["writeup", "-o", "out"], &own[..]].concat());
     assert!(output.status.success(), "{output:?}");
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(
         told.contains("svg: no basic/test7.svg in this folder; the built-in scene"),
+        "{told}"
+    );
+    assert!(
+        told.contains("pins.toml: the pin own is proposed anew, for the picture is another"),
         "{told}"
     );
     let line = |name: &str| Record::of_file(&at(name)).unwrap().unwrap().command_line;
@@ -108,6 +120,20 @@ fn writeup_takes_own_files_and_pins() {
         pins.contains("test4 = \"u20,30:8@4:top-left\"\n") && pins.contains("own = \"u"),
         "{pins}"
     );
+    assert!(!pins.contains("u4,5:8"), "not that of the other picture: {pins}");
+    fs::write(at("pins.toml"), "# mine\ntest4 = \"u9999,9999:16@8:auto\"\n").unwrap();
+    let arguments = ["writeup", "-o", "more", "--pins", "pins.toml"];
+    assert_refused(
+        &run(folder.path(), &arguments),
+        &arguments,
+        &["rasterscope: pins.toml: line 2: test4: pixel ", "outside"],
+    );
+    fs::write(at("pins.toml"), "# mine\nown = \"u900,9:16@8:auto\"\n").unwrap();
+    assert_refused(
+        &run(folder.path(), &arguments),
+        &arguments,
+        &["pins.toml: line 2: own: it lies outside the picture", "move it"],
+    );
 }
 
 #[test]
@@ -128,7 +154,7 @@ fn writeup_at_fault_is_told_in_one_line() {
     refused(&["-o", "out", "--own", "missing.png"], &["missing.png"]);
     refused(
         &["-o", "out", "--pins", "pins.toml"],
-        &["pins.toml", "no figure has the pin test9"],
+        &["pins.toml: line 1: no figure has the pin test9; the pins are test4, texture, own,"],
     );
 }
 

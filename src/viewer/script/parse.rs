@@ -237,9 +237,14 @@ fn parse_command(word: &str, rest: &str) -> Result<Command, String> {
         return Ok(command);
     }
     match spec.argument {
-        Some(argument) => argument
-            .parse(rest)
-            .map_err(|problem| format!("{problem}; write {word} {}", argument.usage())),
+        // What names the form is its cure; what is wrong with a file has one of its own.
+        Some(argument) => argument.parse(rest).map_err(|problem| {
+            if problem.ends_with(argument.usage().as_ref()) {
+                format!("{problem}; write that behind {word}")
+            } else {
+                problem
+            }
+        }),
         None => Err(format!("{word} takes nothing here; write it alone, or press its key")),
     }
 }

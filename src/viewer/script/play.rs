@@ -29,7 +29,7 @@ pub trait Stage {
     /// One line: what went wrong and the cure.
     fn shot(&mut self, path: &Path) -> Result<(), String>;
 
-    /// Whether the program was told to end: later steps are not played.
+    /// Whether the program was told to end: later steps cannot be played.
     fn has_quit(&self) -> bool;
 
     /// What went wrong and is still told: one line with the cure. Steps go on, so that a script can take a picture of it.
@@ -83,14 +83,16 @@ pub trait Stage {
 /// Plays all steps, each after the picture of the one before is finished.
 ///
 /// # Errors
-/// At the first step that cannot be performed; at the end with what a step made go wrong, where the stage still tells it.
+/// At the first step that cannot be performed, or that comes after the end of the program; at the end with what a step made go
+/// wrong, where the stage still tells it.
 pub fn play(script: &Script, name: &str, stage: &mut dyn Stage) -> Result<(), ScriptError> {
     stage.settle();
     let mut told = stage.problem();
     let mut troubled = None;
     for step in &script.steps {
         if stage.has_quit() {
-            break;
+            let unplayed = "it is not played, for a step before it ended the program; let that one be the last";
+            return Err(troubled.unwrap_or_else(|| step.error(name, unplayed.to_owned())));
         }
         perform(&step.step, stage).map_err(|message| step.error(name, message))?;
         stage.settle();

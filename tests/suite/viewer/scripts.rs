@@ -26,7 +26,11 @@ fn script_plays_like_a_hand() {
     );
     let script = Script::parse(&text, "session").unwrap();
     let mut stage = ViewerStage::new(&mut session.viewer);
-    play(&script, "session", &mut stage).unwrap();
+    let late = play(&script, "session", &mut stage).unwrap_err().to_string();
+    assert!(
+        late.starts_with("session:9:9: it is not played"),
+        "after the end: {late}"
+    );
     let copied = stage.clipboard.clone().unwrap();
     assert!(
         copied.starts_with("pixel 255, 168  user 95.25, 30.25"),

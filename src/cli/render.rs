@@ -18,6 +18,10 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
         if options.scene.is_dir() {
             folder(options)
         } else {
+            if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
+                // What is asked for decides whether the output is a picture or a folder.
+                ask_for(&path)?;
+            }
             name_for_png(&options.output)?;
             let scene = SceneToDraw {
                 source: SceneSource::from_address(&options.scene),
@@ -26,6 +30,17 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
             one(scene, Destination::by_user(&options.output), options, restored)
         }
     })?
+}
+
+/// Says that there is nothing to draw at this place.
+fn ask_for(path: &Path) -> Result<(), Failure> {
+    match path.metadata() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Failure::input(format!(
+            "{}: there is no such file or folder; give the path of an SVG file, or of a folder of them",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Every scene below a folder, into a folder of the same shape.

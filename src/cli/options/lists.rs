@@ -18,9 +18,9 @@ pub(in crate::cli) fn sampling(choice: &Choice) -> Result<SamplingOptions, Strin
     sampling_of(choice.iter().map(|(name, value)| format!("--{name}={value}")))
 }
 
-/// Reads one list.
+/// Reads one list; whether its values go together with others is seen later.
 fn list(name: &str, text: &str) -> Result<Axis, clap::Error> {
-    Axis::parse(name, text)
+    Axis::of(name, text)
         .map_err(|why| clap::Error::raw(clap::error::ErrorKind::InvalidValue, format!("--{name}: {why}")))
 }
 
@@ -115,6 +115,7 @@ mod tests {
             "--sample-rate 1,,4",
             "--sample-rate=",
             "--pattern grid,grid",
+            "--sample-rate 1-4",
             "--no-such 1,2",
             "--sample-rate",
         ] {

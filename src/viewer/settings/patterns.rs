@@ -145,11 +145,11 @@ pub fn parse(document: &str, file: &str) -> Result<&'static CustomPattern, Strin
 type Value<'i> = Spanned<DeValue<'i>>;
 
 fn pattern(table: &DeTable<'_>) -> Found<&'static CustomPattern> {
-    let (mut name, mut description, mut source) = (String::new(), String::new(), String::new());
+    let (mut name, mut description, mut source) = (None, String::new(), String::new());
     let (mut grid, mut samples) = (1.0, None);
     for (key, value) in table {
         match key.get_ref().as_ref() {
-            "name" => name = words(value)?,
+            "name" => name = Some(words(value)?),
             "description" => description = words(value)?,
             "source" => source = words(value)?,
             "grid" => grid = f64::from(whole(value, "a grid")?),
@@ -160,9 +160,9 @@ fn pattern(table: &DeTable<'_>) -> Found<&'static CustomPattern> {
             }
         }
     }
-    if name.is_empty() {
+    let Some(name) = name else {
         return mistake(0..0, "no name; add `name = \"...\"`");
-    }
+    };
     let Some(samples) = samples else {
         return mistake(0..0, "no samples; add `samples = [ { x = 0.5, y = 0.5 } ]`");
     };
@@ -328,6 +328,7 @@ mod tests {
             ("name = 3", "f:1:8: not a string"),
             ("name = \"a\"", "no samples"),
             ("samples = []", "no name"),
+            ("name = \"\"\nsamples = [{ x = 0, y = 0 }]", "\"\" is no name"),
             ("name = \"a b\"\nsamples = [{ x = 0, y = 0 }]", "\"a b\" is no name"),
             (
                 "name = \"a\"\nsamples = []",

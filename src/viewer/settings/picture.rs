@@ -20,6 +20,17 @@ pub fn find(name: &str) -> Option<&'static PictureSetting> {
     all().find(|setting| setting.option == name)
 }
 
+/// As [`find`].
+///
+/// # Errors
+/// One line that lists the settings there are.
+pub(in crate::viewer) fn known(name: &str) -> Result<&'static PictureSetting, String> {
+    find(name).ok_or_else(|| {
+        let names: Vec<&str> = all().map(|setting| setting.option).collect();
+        format!("there is no setting {name}; there are {}", names.join(", "))
+    })
+}
+
 /// The settings about this that are not at their defaults and that are not told always, in few words each, such as `pattern
 /// halton`.
 pub fn changed_words(settings: &Settings, about: About) -> Vec<String> {
@@ -119,9 +130,7 @@ impl SettingChange {
     /// # Errors
     /// One line where there is no such setting or no such value.
     pub fn of(option: &str, value: &str) -> Result<Self, String> {
-        find(option)
-            .ok_or_else(|| format!("there is no setting {option}"))?
-            .to(value)
+        known(option)?.to(value)
     }
 }
 

@@ -255,6 +255,18 @@ fn cli_view_answers_mistakes_too() {
     );
     let rates = ["a.svg", "--headless", "--do", "rate 4; rate 5; rate 9"];
     refused(folder.path(), &rates, &["--do:1:9: pattern grid takes a square number"]);
+    let scene = ["a.svg", "--headless", "--do", "scene nope"];
+    refused(
+        folder.path(),
+        &scene,
+        &["\"nope\" is not a scene's number, from 1; write that behind scene"],
+    );
+    let late = ["a.svg", "--headless", "--do", "key Ctrl+Q; shot never.png"];
+    refused(
+        folder.path(),
+        &late,
+        &["--do:1:13: it is not played", "let that one be the last"],
+    );
     let against = ["a.svg", "--headless", "--against", "sample-rate 5"];
     refused(
         folder.path(),
@@ -326,6 +338,21 @@ fn cli_answers_mistakes_in_one_line_with_status_two() {
         folder.path(),
         &["render", "a.svg", "-o", "b.png", "--colour"],
         &["--colour"],
+    );
+    refused(
+        folder.path(),
+        &["render", "nofolder", "-o", "out"],
+        &["rasterscope: nofolder: there is no such file or folder"],
+    );
+    refused(
+        folder.path(),
+        &["sheet", "a.svg", "-o", "b.png", "--sample-rate", "1-4"],
+        &["\"1-4\" is not a whole number", "see `rasterscope sheet --help`"],
+    );
+    refused(
+        folder.path(),
+        &["board", "a.svg", "--with", "frob 3"],
+        &["there is no setting frob; there are sample-rate, pattern,"],
     );
     refused(folder.path(), &["bench", "nowhere.svg"], &["nowhere.svg"]);
     assert!(!folder.path().join("b.png").exists(), "nothing was written");

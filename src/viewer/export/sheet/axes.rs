@@ -54,7 +54,7 @@ impl Axis {
     /// # Errors
     /// As [`Axis::of`], and one line where a file holds no value.
     pub fn read(name: &str, text: &str) -> Result<Self, String> {
-        let setting = picture::find(name).ok_or_else(|| format!("there is no setting {name}"))?;
+        let setting = picture::known(name)?;
         Self::of(name, &setting.read_list(text)?)
     }
 

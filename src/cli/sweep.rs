@@ -1,11 +1,14 @@
 //! `rasterscope sweep`: what each combination of settings costs, and how far its picture is from the truth.
 
-use std::io;
-use std::path::{Path, PathBuf};
+mod files;
+
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+
+use files::{chart_named, chart_of, check_outputs, check_targets, guard, unwritable};
 
 use super::failure::{Failure, print, print_error};
 use super::interrupt;
@@ -13,11 +16,11 @@ use super::memory::peak_of_drawing;
 use super::options::lists::sampling;
 use super::options::sweep::{Quality, SweepOptions};
 use super::picture::{Picture, on_threads};
-use super::render::{guard_of, name_for_png, unwritable_by};
+use super::render::unwritable_by;
 use super::size::FrameSize;
 use crate::compare::Pair;
 use crate::figure::{
-    Destination, Guard, Named, NewFile, Plot, PlotSeries, Record, Table, draw_plot, save_files, save_picture,
+    Destination, Guard, NewFile, Plot, PlotSeries, Record, Table, draw_plot, save_files, save_picture,
 };
 use crate::raster::Framebuffer;
 use crate::render::{CancelToken, Repeats, median, milliseconds};
@@ -89,80 +92,6 @@ pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result
     Err(interrupt::ended_with(&format!(
         ": {done} of {all} combinations {are} in {table}"
     )))
-}
-
-/// Where the chart goes.
-fn chart_of(options: &SweepOptions) -> PathBuf {
-    let beside = || options.csv.with_extension("png");
-    options.plot.clone().unwrap_or_else(beside)
-}
-
-/// Says before minutes of work what would fail after it.
-fn check_outputs(options: &SweepOptions, chart: &Path) -> Result<(), Failure> {
-    name_for_png(chart)?;
-    let files: Vec<&Path> = outputs(options, chart).map(|(path, _)| path).collect();
-    for (number, file) in files.iter().enumerate() {
-        if files[..number].contains(file) {
-            return Err(Failure::input(format!(
-                "{}: tables and chart cannot be one file; end --csv in .csv, --markdown in .md",
-                file.display()
-            )));
-        }
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if folder.is_some_and(|folder| !folder.is_dir()) {
-            return Err(unwritable(file, &io::Error::from(io::ErrorKind::NotFound)));
-        }
-    }
-    Ok(())
-}
-
-/// The files that are written, and who named them.
-fn outputs<'o>(options: &'o SweepOptions, chart: &'o Path) -> impl Iterator<Item = (&'o Path, Named)> {
-    let markdown = options.markdown.as_deref().map(|path| (path, Named::ByUser));
-    let tables = [(options.csv.as_path(), Named::ByUser)].into_iter().chain(markdown);
-    tables.chain([(chart, chart_named(options))])
-}
-
-/// A table or chart could not be written.
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    unwritable_by("--csv, --markdown or --plot", path, error)
-}
-
-/// Who chose the name of the chart.
-fn chart_named(options: &SweepOptions) -> Named {
-    options.plot.as_ref().map_or(Named::ByProgram, |_| Named::ByUser)
-}
-
-/// Protects what is read, and says before minutes of work what must not be replaced.
-fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, Failure> {
-    let mut guard = guard_of(options.force, restored);
-    if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
-        guard.protect(path);
-    }
-    check_targets(options, &guard)?;
-    let chart = chart_of(options);
-    if options.plot.is_none() && !options.force && is_of_another_command(&chart) {
-        let chart = chart.display();
-        return Err(Failure::input(format!(
-            "{chart}: this picture is no chart of a sweep, and would be lost; choose another place with --plot, or --force \
-             replaces it"
-        )));
-    }
-    Ok(guard)
-}
-
-/// Says before anything is measured which of the files would not be written.
-fn check_targets(options: &SweepOptions, guard: &Guard) -> Result<(), Failure> {
-    for (path, named) in outputs(options, &chart_of(options)) {
-        guard.target(path, named).map_err(|error| unwritable(path, &error))?;
-    }
-    Ok(())
-}
-
-/// Whether a picture is one of this program, and something else than a chart: nobody said that it may be replaced.
-fn is_of_another_command(path: &Path) -> bool {
-    let record = Record::of_file(path).ok().flatten();
-    record.is_some_and(|record| record.arguments.first().is_none_or(|verb| verb != "sweep"))
 }
 
 /// What each combination draws.

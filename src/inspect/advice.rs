@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::explanation::Question;
-use super::model::{Causes, Cure, Explanation, Setting, Truth};
+use super::model::{Causes, Cure, Explanation, Missed, Setting, Truth};
 use crate::post::PostProcess;
 use crate::raster::{PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
@@ -24,6 +24,8 @@ const ENOUGH: f64 = 0.75;
 const WORTH_A_WORD: f64 = 0.25;
 /// Texels of a texture above which no sums and ripmaps are made of it for the sake of advice: they would take as long as frames.
 const MOST_TABLED: u64 = 1 << 20;
+/// Primitives between the samples that are left out one by one at most.
+const MOST_TRIED: usize = 8;
 /// Settings that are told at most.
 const MOST_CURES: usize = 3;
 
@@ -91,12 +93,23 @@ impl Explanation {
             let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
             Some([r, g, b, a])
         };
+        let without = |left_out: &[u32]| color(&nearby.without(left_out), settings);
         let by = |left_out: Vec<u32>| {
-            let without = (!left_out.is_empty()).then(|| color(&nearby.without(&left_out), settings));
+            let without = (!left_out.is_empty()).then(|| without(&left_out));
             let left = without.flatten().map(|without| distance(self.color, without));
             left.map_or(0.0, |left| truth.distance - left)
         };
-        let missed = || self.missed.iter().filter(|missed| self.may_be_seen(missed));
+        let unseen = if self.missed.len() <= MOST_TRIED {
+            let missed = self.missed.iter().map(|missed| missed.primitive);
+            let changes = |primitive: &u32| without(&[*primitive]).map(|without| distance(without, truth.color));
+            missed
+                .filter(|primitive| changes(primitive).is_some_and(|changes| changes <= LEAST))
+                .collect()
+        } else {
+            Vec::new()
+        };
+        let may_be_seen = |missed: &&Missed| self.may_be_seen(missed) && !unseen.contains(&missed.primitive);
+        let missed = || self.missed.iter().filter(may_be_seen);
         let once = RenderSettings {
             shading: ShadingRate::Centre,
             ..*settings
@@ -108,6 +121,7 @@ impl Explanation {
                 .collect()),
             missed: by(missed().map(|missed| missed.primitive).collect()),
             textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
+            unseen,
         }
     }
 }

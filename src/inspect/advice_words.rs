@@ -128,8 +128,9 @@ impl Explanation {
             // Neighbours' samples decide, too: the pixel may show too much of it as well as too little.
             return None;
         }
-        let causes = self.truth.as_ref()?.causes;
-        let seen = || self.missed.iter().filter(|missed| self.may_be_seen(missed));
+        let causes = &self.truth.as_ref()?.causes;
+        let may_be_seen = |missed: &&Missed| self.may_be_seen(missed) && !causes.unseen.contains(&missed.primitive);
+        let seen = || self.missed.iter().filter(may_be_seen);
         let area_of = |area: f64| percent(area.min(1.0));
         if causes.thin >= cure.nearer * MOSTLY {
             let thin = seen().filter(|missed| self.is_thin(missed));
@@ -212,7 +213,7 @@ impl Explanation {
         }
         let step = if texture.step == "sample" { 1.0 } else { self.step() };
         let apart = texture.major * step;
-        let causes = self.truth.as_ref().map(|truth| truth.causes);
+        let causes = self.truth.as_ref().map(|truth| &truth.causes);
         let by_texture = causes.is_none_or(|causes| causes.textures >= cure.nearer * MOSTLY);
         (texture.reads_base_once() && apart > LEAVES_OUT && by_texture).then(|| {
             format!(

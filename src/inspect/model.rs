@@ -134,7 +134,7 @@ pub struct Truth {
 }
 
 /// By how many levels a pixel would be nearer to the truth if it were not for something: what may be told as the reason.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Causes {
     /// Primitives that pass between the samples and are thinner than these are apart.
     pub thin: f64,
@@ -142,6 +142,8 @@ pub struct Causes {
     pub missed: f64,
     /// Textures that differ within the pixel.
     pub textures: f64,
+    /// Of what the samples miss, the primitives that make no difference that could be seen, by their indices.
+    pub unseen: Vec<u32>,
 }
 
 /// A setting that brings a pixel nearer to the truth.

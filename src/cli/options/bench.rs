@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::framing::PictureOptions;
-use super::values::whole;
+use super::whole::whole;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct BenchOptions {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::framing::PictureOptions;
-use super::values::whole;
+use super::whole::whole;
 use crate::color::ResolveSpace;
 use crate::figure::Ground;
 use crate::raster::Region;

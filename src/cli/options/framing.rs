@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::sampling::SamplingOptions;
-use super::values::whole;
+use super::whole::whole;
 use crate::cli::size::FrameSize;
 use crate::cli::view_option;
 use crate::geometry::View;

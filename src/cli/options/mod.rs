@@ -19,4 +19,5 @@ pub(in crate::cli) mod spectrum;
 pub(in crate::cli) mod sweep;
 mod values;
 pub(in crate::cli) mod view;
+mod whole;
 pub(in crate::cli) mod writeup;

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::inspect::{PixelPlace, pixel};
-use super::values::whole;
+use super::whole::whole;
 use crate::raster::SampleRate;
 
 #[derive(Debug, Args)]

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::framing::FramingOptions;
 use super::lists::Lists;
-use super::values::whole;
+use super::whole::whole;
 use crate::cli::size::FrameSize;
 use crate::color::ResolveSpace;
 use crate::viewer::BoardSort;

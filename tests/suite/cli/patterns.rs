@@ -269,7 +269,7 @@ fn cli_samples_of_patterns_flood_no_caption_and_no_table() {
     let sheet = ["sheet", "a.svg", "-o", "s.png", "--pixel-sampling", "nearest,bilinear"];
     done(folder.path(), &[&sheet[..], &small].concat());
     let told = at("s/figures.md");
-    assert!(told.contains("In all: pattern own") && !told.contains("own:"), "{told}");
+    assert!(told.contains(", pattern own. Each") && !told.contains("own:"), "{told}");
     let record = Record::of_file(&folder.path().join("s.png")).unwrap().unwrap();
     assert!(record.command_line.contains("own:64/192"), "{}", record.command_line);
     let measured = ["--frames", "1"];
@@ -289,7 +289,7 @@ fn cli_samples_of_patterns_flood_no_caption_and_no_table() {
         let told = done(folder.path(), &[&board[..], &measured, &[form]].concat());
         assert!(told.contains("own") && !told.contains("own:"), "{told}");
     }
-    let board = ["board", "a.svg", "--with", "pixel-sampling bilinear"];
+    let board = ["board", "a.svg", "--with=A", "--with=pixel-sampling bilinear"];
     let told = done(folder.path(), &[&board[..], &small, &measured].concat());
     assert!(told.contains("pattern own") && !told.contains("own:"), "{told}");
 }

@@ -303,7 +303,8 @@ fn check_words(found: &Explanation, scene: &Scene, view: &ViewTransform, (hint, 
     }
     if hint.contains("breaks up") {
         let step = 1.0 / (found.samples.len() as f64).sqrt();
-        let is_thin = |primitive: u32| !holds_disc(scene, view, (primitive, found.pixel, step));
+        // A rim of few points lies in what is a little narrower.
+        let is_thin = |primitive: u32| !holds_disc(scene, view, (primitive, found.pixel, step * 1.03));
         let thin = if hint.contains("px wide here") {
             let mut seen = found.paints.iter().rev();
             let topmost = seen.find(|paint| paint.fragments.iter().any(|fragment| fragment.seen));
@@ -435,12 +436,12 @@ fn exact_areas_of_upright_edges_are_right() {
 #[test]
 fn what_is_hardly_seen_is_no_reason() {
     // The polygon covers more than a third of the pixel and not its centre; the bar is thin, and hardly there.
-    let polygon = r#"<polygon points="4,4 5,4 5,4.35 4,4.35"/>"#;
+    let polygon = r#"<polygon points="0,4.6 8,4.6 8,8 0,8"/>"#;
     let bar = r#"<rect x="4.6" y="0" width="0.1" height="8" fill-opacity="0.004"/>"#;
     for (body, expected, why) in [
         (
             format!("{bar}{polygon}"),
-            "No sample meets some",
+            "No sample meets some of what is here, 40 % of the pixel",
             "the polygon is missed",
         ),
         (

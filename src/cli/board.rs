@@ -230,7 +230,7 @@ fn at_fault(option: &str, problem: &str) -> Failure {
 fn varied(text: &str, own: BoardEntry) -> Result<Vec<BoardEntry>, String> {
     let Some((name, values)) = text.split_once('=') else {
         let name = text.trim();
-        let setting = picture::find(name).ok_or_else(|| format!("there is no setting {name}"))?;
+        let setting = picture::known(name)?;
         let mut entries = own.vary(&Axis::first(setting))?;
         let count = entries.len();
         if count > MAX_ENTRIES {

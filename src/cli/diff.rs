@@ -11,10 +11,12 @@ use super::options::framing::PictureOptions;
 use super::picture::spec;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
+use super::rounded::rounded;
 use super::size::FrameSize;
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::geometry::View;
+use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
@@ -94,7 +96,7 @@ struct PlaceReport {
 struct PictureReport {
     file: String,
     mode: &'static str,
-    gain: f32,
+    gain: f64,
 }
 
 /// Compares the pictures, prints what was found, and fails where they differ.
@@ -290,7 +292,7 @@ fn save(
     Ok(PictureReport {
         file: output.display().to_string(),
         mode: options.mode.name(),
-        gain,
+        gain: rounded(f64::from(gain)),
     })
 }
 
@@ -470,7 +472,8 @@ impl Channels {
         ];
         named.into_iter().filter_map(|(name, largest)| {
             let LargestReport { level, x, y } = largest?;
-            Some(format!("largest in {name:5}   {level} levels, first at ({x}, {y})"))
+            let levels = counted(level.into(), "level");
+            Some(format!("largest in {name:5}   {levels}, first at ({x}, {y})"))
         })
     }
 }

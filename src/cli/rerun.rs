@@ -11,6 +11,7 @@ use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
 use super::{board, diff, lesson, sheet, spectrum};
 use crate::compare;
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
+use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
@@ -264,7 +265,7 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
     let different = compare::count_different(&bytes, &again.frame).map_err(|error| unreadable(&error))?;
     if different == 0 {
         let although = change.map_or(String::new(), |change| format!(", although {change}"));
-        return print(&format!("{name}: the same, all {all} pixels{although}"));
+        return print(&format!("{name}: the same, all {}{although}", counted(all, "pixel")));
     }
     print(&format!("{name}: differs in {different} of {all} pixels{why}"))?;
     Err(Failure::Different)

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::framing::FramingOptions;
 use super::sampling::SamplingOptions;
+use super::whole::whole;
 use crate::compare::Measure;
 
 #[derive(Debug, Args)]
@@ -27,7 +28,7 @@ pub(in crate::cli) struct DiffOptions {
     #[arg(long, conflicts_with = "gain", requires = "output")]
     pub(in crate::cli) normalize: bool,
     /// Levels of 255 that a channel may differ by without an exit status of 1
-    #[arg(long, default_value_t = 0, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0, value_name = "T", allow_negative_numbers = true, value_parser = whole::<u8>(0..=255))]
     pub(in crate::cli) tolerance: u8,
     /// Most pixels of a picture; comparing takes about 16 bytes of memory for each
     #[arg(long, default_value_t = MAX_PIXELS, value_name = "N")]

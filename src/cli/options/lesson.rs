@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::view::ViewerOptions;
+use super::whole::whole;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LessonOptions {
@@ -14,7 +15,7 @@ pub(in crate::cli) struct LessonOptions {
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) slides: Option<PathBuf>,
     /// Draw only this step, counted from 1
-    #[arg(long, value_name = "N", requires = "slides", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", requires = "slides", value_parser = whole::<u32>(1..=u32::MAX))]
     pub(in crate::cli) step: Option<u32>,
     #[command(flatten)]
     pub(in crate::cli) view: ViewerOptions,

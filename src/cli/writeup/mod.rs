@@ -42,7 +42,7 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     forget_stale_pin(&scenes, &mut pins)?;
     let inner = folder.join("scenes");
     std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
-    let guard = guard(options);
+    let guard = guard(options, options.force);
     // Asked before minutes of work.
     for page in PAGES.map(|name| folder.join(name)) {
         let target = guard.target(&page, Named::ByProgram);
@@ -56,15 +56,20 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     let mut files: Vec<_> = pages
         .map(|(name, text)| NewFile::by_program(folder.join(name), text.into_bytes()))
         .collect();
-    files.extend(pins.file());
+    files.extend(pins.file().filter(|_| !pins.is_cut()));
     save_files(&files, &guard).map_err(|(path, error)| unwritable(&path, &error))?;
+    if let Some(file) = pins.file().filter(|_| pins.is_cut()) {
+        // A file of ours that lacks one line of ours: its user's words are all in there.
+        let guard = self::guard(options, true);
+        save_files(&[file], &guard).map_err(|(path, error)| unwritable(&path, &error))?;
+    }
     let (count, page) = (figures.len(), folder.join("index.html").display().to_string());
     print(&format!("{count} figures; {} shows all", plain::line(&page)))
 }
 
 /// Protects what the options name.
-fn guard(options: &WriteupOptions) -> Guard {
-    let mut guard = Guard::new(options.force);
+fn guard(options: &WriteupOptions, force: bool) -> Guard {
+    let mut guard = Guard::new(force);
     for input in [&options.own, &options.robot].into_iter().flatten() {
         guard.protect(input);
     }

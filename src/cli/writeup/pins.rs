@@ -31,6 +31,8 @@ pub(super) struct Pins {
     places: BTreeMap<String, InsetSpec>,
     /// Where those of the file stand in its text.
     spans: BTreeMap<String, Range<usize>>,
+    /// Whether a pin of the file was forgotten.
+    is_cut: bool,
     /// Names of those that were proposed since.
     new: Vec<String>,
 }
@@ -85,6 +87,7 @@ impl Pins {
             text: text.to_owned(),
             places,
             spans,
+            is_cut: false,
             new,
         })
     }
@@ -107,8 +110,13 @@ impl Pins {
         // The others stand elsewhere now.
         let known: Vec<&str> = self.spans.keys().map(String::as_str).collect();
         let Self { places, spans, .. } = Self::parse(&text, self.path.clone(), &known)?;
-        (self.text, self.places, self.spans) = (text, places, spans);
+        (self.text, self.places, self.spans, self.is_cut) = (text, places, spans, true);
         Ok(())
+    }
+
+    /// Whether [`Pins::file`] lacks a line of what was there.
+    pub(super) fn is_cut(&self) -> bool {
+        self.is_cut
     }
 
     /// Whether the file was made by a write-up, and may be written anew.

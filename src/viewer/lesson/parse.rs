@@ -179,11 +179,14 @@ fn check_rates(table: &DeTable<'_>, changes: &[SettingChange], against: Option<&
     let Some((Against::Changed(changes), at)) = against else {
         return Ok(());
     };
-    let is_written = written.is_some() || changes.iter().any(|change| change.option() == RATE);
-    match picture::apply_all(changes, &mut settings) {
-        Some(refusal) if is_written => mistake(at.clone(), refusal),
-        _ => Ok(()),
-    }
+    let refusal = if changes.iter().any(|change| change.option() == RATE) {
+        picture::apply_all(changes, &mut settings)
+    } else {
+        // The rate of A, which changes as soon as it is refused.
+        let mut refusals = changes.iter().filter_map(|change| change.apply(&mut settings));
+        refusals.next().filter(|_| written.is_some())
+    };
+    refusal.map_or(Ok(()), |refusal| mistake(at.clone(), refusal))
 }
 
 fn setting(name: &str, (key, value): (&Key<'_>, &Value<'_>), folder: Option<&Path>) -> Found<SettingChange> {

@@ -24,7 +24,7 @@ pub fn find(name: &str) -> Option<&'static PictureSetting> {
 ///
 /// # Errors
 /// One line that lists the settings there are.
-pub(in crate::viewer) fn known(name: &str) -> Result<&'static PictureSetting, String> {
+pub fn known(name: &str) -> Result<&'static PictureSetting, String> {
     find(name).ok_or_else(|| {
         let names: Vec<&str> = all().map(|setting| setting.option).collect();
         format!("there is no setting {name}; there are {}", names.join(", "))

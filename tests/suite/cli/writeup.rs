@@ -128,7 +128,7 @@ fn writeup_takes_own_files_and_pins() {
         &arguments,
         &["rasterscope: pins.toml: line 2: test4: pixel ", "outside"],
     );
-    fs::write(at("pins.toml"), "# mine\nown = \"u900,9:16@8:auto\"\n").unwrap();
+    fs::write(at("pins.toml"), "# mine\nown = \"u90000,9:16@8:auto\"\n").unwrap();
     assert_refused(
         &run(folder.path(), &arguments),
         &arguments,

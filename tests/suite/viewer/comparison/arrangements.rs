@@ -195,15 +195,17 @@ fn comparison_side_by_side_shows_all_of_both() {
         [149, 180],
         "half of the free area less the gap"
     );
+    // The column that is left over belongs to the gap: B ends where the free area does.
+    let second = 40 + 301 - 149;
     session.assert_frame_is_current();
     let window = session.viewer.window().picture();
     for y in 0..180 {
         for x in 0..149 {
             assert_eq!(window.rgba(40 + x, 10 + y), a.rgba(x, y), "A at {x}, {y}");
-            assert_eq!(window.rgba(40 + 149 + 2 + x, 10 + y), b.rgba(x, y), "B at {x}, {y}");
+            assert_eq!(window.rgba(second + x, 10 + y), b.rgba(x, y), "B at {x}, {y}");
         }
     }
-    for (at, pixel) in [([45.0, 12.0], [5, 2]), ([40.0 + 151.0 + 7.0, 13.0], [7, 3])] {
+    for (at, pixel) in [([45.0, 12.0], [5, 2]), ([f64::from(second) + 7.0, 13.0], [7, 3])] {
         session.run(Command::Pointer(PointerCommand::Moved { at: at.into() }));
         assert_eq!(
             session.viewer.pixels().hovered(),
@@ -221,7 +223,7 @@ fn comparison_side_by_side_shows_all_of_both() {
     let saved = image::open(&session.pictures()[0]).unwrap().into_rgba8();
     assert_eq!(
         saved.dimensions(),
-        (300, 180),
+        (301, 180),
         "both and the gap, without what lies below the panels"
     );
 }

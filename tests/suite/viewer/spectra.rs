@@ -71,6 +71,7 @@ fn spectrum_follows_view_and_settings() {
         (after / before - 0.368).abs() < 0.02,
         "the box takes the rest: {after} of {before}"
     );
+    session.run(set("pattern", "hammersley"));
     session.run(spectrum(SpectrumCommand::Of(SpectrumOf::Difference)));
     let none = session.viewer.spectrum().found().unwrap().analysis.peaks(3);
     assert!(none.is_empty(), "the truth has no difference to itself: {none:?}");

@@ -8,7 +8,7 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::compare::{Cause, Gain, Measure, Pair};
 use rasterscope::figure::save_png;
 use rasterscope::geometry::View;
-use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{self, RenderSettings};
 use rasterscope::texture::PixelSampling;
 use rasterscope::viewer::script::{Script, ViewerStage, play};
@@ -64,6 +64,7 @@ fn comparison_with_the_truth() {
     );
     let truth = RenderSettings {
         sample_rate: SampleRate::new(256).unwrap(),
+        pattern: SamplePattern::Hammersley,
         pixel_sampling: PixelSampling::Bilinear,
         ..RenderSettings::default()
     };

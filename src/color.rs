@@ -30,7 +30,7 @@ pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
 pub use spaces::ColorSpace;
 pub(crate) use sum_bounds::{SumBounds, sums_at};
-pub(crate) use value_spread::{SpreadLimits, ValueLimits, ValueSpread};
+pub(crate) use value_spread::{PIXELS, SpreadLimits, ValueLimits, ValueSpread};
 pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

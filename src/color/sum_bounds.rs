@@ -12,8 +12,9 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, u64x8};
+use fearless_simd::{Simd, f32x16, f64x8, u64x8};
 
+use super::value_spread::PIXELS;
 use super::{Light, Premultiplied16, SampleMean};
 
 const ONE: f64 = Premultiplied16::ONE as f64;
@@ -77,16 +78,26 @@ impl SumBounds {
     }
 }
 
-/// The sums of a channel over `counts` samples of eight pixels whose means, or the value whose light is the mean of theirs, lie at
-/// such an end, in units of [`Premultiplied16`]; rounded down.
+/// The sums of a channel over `counts` samples of [`PIXELS`] pixels whose means, or the value whose light is the mean of theirs, lie
+/// at such an end, in units of [`Premultiplied16`]; rounded down.
 #[inline(always)]
-pub(crate) fn sums_at<S: Simd>(simd: S, end: f64x8<S>, counts: f64x8<S>, mean: &SampleMean) -> [u64; 8] {
+pub(crate) fn sums_at<S: Simd>(simd: S, end: f32x16<S>, counts: f32x16<S>, mean: &SampleMean) -> [u64; PIXELS] {
+    let (ends, counts) = (end.widen(), counts.widen());
+    let mut sums = [0; PIXELS];
+    let (first, second) = sums.split_at_mut(PIXELS / 2);
+    first.copy_from_slice(&sums_of_half(simd, ends.0, counts.0, mean));
+    second.copy_from_slice(&sums_of_half(simd, ends.1, counts.1, mean));
+    sums
+}
+
+#[inline(always)]
+fn sums_of_half<S: Simd>(simd: S, end: f64x8<S>, counts: f64x8<S>, mean: &SampleMean) -> [u64; PIXELS / 2] {
     let SampleMean::Linear(resolver) = mean else {
         return whole(end.max(f64x8::splat(simd, 0.0)) * counts).to_array();
     };
     let light = resolver.of_stored();
     let below = end.max(f64x8::splat(simd, 0.0)).min(f64x8::splat(simd, ONE)).floor();
-    let [mut from, mut to] = [[0.0; 8]; 2];
+    let [mut from, mut to] = [[0.0; PIXELS / 2]; 2];
     for (i, below) in whole(below).to_array().into_iter().enumerate() {
         let at = low_part(below);
         from[i] = f64::from(light[usize::from(at)]);

@@ -20,37 +20,42 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, u64x8};
+use fearless_simd::{Simd, f32x16, u32x16};
 
 use super::Premultiplied16;
 
 const ONE: f64 = Premultiplied16::ONE as f64;
 /// Where the straight part of the curve ends (IEC 61966-2-1), with a small step and a kink.
-const BEND: f64 = 0.040_45 * ONE;
+const BEND: f32 = 0.040_45 * Premultiplied16::ONE as f32;
 /// Beyond, light is the power 2.4 of `stored * SLOPE + OFFSET`.
-const SLOPE: f64 = 1.0 / (ONE * 1.055);
-const OFFSET: f64 = 0.055 / 1.055;
+const SLOPE: f32 = 1.0 / (Premultiplied16::ONE as f32 * 1.055);
+const OFFSET: f32 = 0.055 / 1.055;
 
 /// The most that `SLOPE` is of the base of that power: at the bend.
-const STEEPEST: f64 = SLOPE / (BEND * SLOPE + OFFSET);
-/// The curve bends so little that it does not matter where on it values lie, in units.
-const LITTLE: f64 = 0.05;
+const STEEPEST: f64 = (SLOPE / (BEND * SLOPE + OFFSET)) as f64;
+/// The curve bends so little that it is not worth a division to know where on it values lie, in units: rounding leaves more open.
+const LITTLE: f32 = 0.5;
 /// It bends so little that it rarely matters.
-const MUCH: f64 = 4.0;
+const MUCH: f32 = 4.0;
 
 /// What the curve is off where it bends and light is rounded to whole numbers, even in the dark.
 const OF_LIGHT: f64 = 0.1;
 /// Planes are rounded, too.
 const OF_PLANES: f64 = 0.01;
+/// What the few sums here are off at most: numbers of 32 bits up to [`ONE`] are rounded to parts of 256.
+const OF_SUMS: f64 = 0.02;
 
 /// Values may lie so far out of range: planes are rounded.
 const SLACK: f64 = 1e-3;
 
-/// The values of one channel at the samples of eight pixels, before they are rounded as samples store them.
+/// Pixels of which something is found together.
+pub(crate) const PIXELS: usize = 16;
+
+/// The values of one channel at the samples of [`PIXELS`] pixels, before they are rounded as samples store them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ValueSpread<S: Simd> {
     /// In units of [`Premultiplied16`].
-    pub(crate) mean: f64x8<S>,
+    pub(crate) mean: f32x16<S>,
     pub(crate) limits: SpreadLimits,
 }
 
@@ -67,22 +72,26 @@ pub(crate) struct ValueLimits {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpreadLimits {
     /// No two values are farther apart.
-    pub(crate) reach: f64,
-    rounded: f64,
+    reach: f32,
+    /// How far rounding may move the mean of what is stored.
+    rounded: f32,
     /// How far rounding may move the value whose light is the mean light, and how far from there any value may lie.
-    off: f64,
-    widest: f64,
+    off: f32,
+    widest: f32,
     /// Between these means no value is clamped.
-    unclamped: [f64; 2],
+    unclamped: [f32; 2],
     /// So near to the bend some values may lie on its other side.
-    near_bend: f64,
+    near_bend: f32,
     /// What the curve adds at most, wherever on it values lie and however they are spread: half of its second derivative, at its
     /// greatest, over the first.
-    most_bent: f64,
+    most_bent: f32,
 }
 
-/// Between what a mean lies, in units of [`Premultiplied16`], and a bit for each of eight pixels of which that is certain.
-pub(crate) type Ends<S> = ([f64x8<S>; 2], u64);
+/// A bit for each of [`PIXELS`].
+const ALL: u64 = (1 << PIXELS) - 1;
+
+/// Between what a mean lies, in units of [`Premultiplied16`], and a bit for each of [`PIXELS`] pixels of which that is certain.
+pub(crate) type Ends<S> = ([f32x16<S>; 2], u64);
 
 impl ValueLimits {
     /// Of values that are rounded once.
@@ -91,23 +100,32 @@ impl ValueLimits {
         rounded: 0.5,
     };
 
-    /// Of the values of one pixel, where no two are farther apart than `reach`.
-    pub(crate) fn within(self, reach: f64) -> SpreadLimits {
+    /// Of the values of one pixel, where no two are farther apart than `reach` and their mean is known but for `inexact`.
+    #[expect(clippy::cast_possible_truncation, reason = "what is lost is within the slack")]
+    pub(crate) fn within(self, reach: f64, inexact: f64) -> SpreadLimits {
         let Self {
             range: [least, most],
             rounded,
         } = self;
-        let off = rounded + OF_LIGHT;
+        let inexact = inexact + OF_SUMS;
+        let off = rounded + OF_LIGHT + inexact;
         let widest = reach + off;
         SpreadLimits {
-            reach,
-            rounded,
-            off,
-            widest,
-            unclamped: [least + (reach - SLACK), most + SLACK - reach],
-            near_bend: reach + 2.0 * off,
-            most_bent: reach * reach / 4.0 * (STEEPEST * (widest * STEEPEST + 1.0)) * (1.4 / 2.0),
+            reach: reach as f32,
+            rounded: (rounded + OF_PLANES + inexact) as f32,
+            off: off as f32,
+            widest: widest as f32,
+            unclamped: [(least + (reach - SLACK)) as f32, (most + SLACK - reach) as f32],
+            near_bend: (reach + 2.0 * off) as f32,
+            most_bent: (reach * reach / 4.0 * (STEEPEST * (widest * STEEPEST + 1.0)) * (1.4 / 2.0)) as f32,
         }
+    }
+}
+
+impl SpreadLimits {
+    /// The most that the mean square of how far values are from their mean can be: half of them lie at either end.
+    pub(crate) fn most_squares(&self) -> f32 {
+        self.reach * self.reach / 4.0
     }
 }
 
@@ -115,13 +133,13 @@ impl<S: Simd> ValueSpread<S> {
     /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` says between
     /// what the mean squares lie of how far the values are from their mean, where these matter.
     #[inline(always)]
-    pub(crate) fn bytes_of_light(self, simd: S, squares: impl FnOnce() -> [f64x8<S>; 2]) -> (u64x8<S>, u64) {
+    pub(crate) fn bytes_of_light(self, simd: S, squares: impl FnOnce() -> [f32x16<S>; 2]) -> (u32x16<S>, u64) {
         let SpreadLimits { off, most_bent, .. } = self.limits;
         if most_bent < MUCH {
             let (bytes, is_one) = bytes_between(simd, [self.mean - off, self.mean + (off + most_bent)]);
             // Nearly always. Without a division it takes half of the time.
-            if is_one == u64::from(u8::MAX) {
-                return (bytes, self.is_unclamped(simd) & self.is_smooth(simd));
+            if is_one == ALL || most_bent < LITTLE {
+                return (bytes, is_one & self.is_unclamped(simd) & self.is_smooth(simd));
             }
         }
         let (ends, certain) = self.ends_of_light(simd, squares());
@@ -131,7 +149,7 @@ impl<S: Simd> ValueSpread<S> {
 
     /// The bytes of the mean of what is stored, rounded to nearest, and a bit for each pixel of which that is certain.
     #[inline(always)]
-    pub(crate) fn bytes(self, simd: S) -> (u64x8<S>, u64) {
+    pub(crate) fn bytes(self, simd: S) -> (u32x16<S>, u64) {
         let (ends, certain) = self.ends(simd);
         let (bytes, is_one) = bytes_between(simd, ends);
         (bytes, certain & is_one)
@@ -140,20 +158,20 @@ impl<S: Simd> ValueSpread<S> {
     /// The ends of the value whose light is the mean light; between `squares` lie the mean squares of how far the values are from their
     /// mean.
     #[inline(always)]
-    pub(crate) fn ends_of_light(self, simd: S, squares: [f64x8<S>; 2]) -> Ends<S> {
+    pub(crate) fn ends_of_light(self, simd: S, squares: [f32x16<S>; 2]) -> Ends<S> {
         let Self { mean, limits } = self;
-        let zero = f64x8::splat(simd, 0.0);
+        let zero = f32x16::splat(simd, 0.0);
         let (least, most) = if limits.most_bent < LITTLE {
-            (zero, f64x8::splat(simd, limits.most_bent))
+            (zero, f32x16::splat(simd, limits.most_bent))
         } else {
-            let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
-            let step = f64x8::splat(simd, SLOPE) / base;
+            let base = mean.max(f32x16::splat(simd, BEND)) * SLOPE + OFFSET;
+            let step = f32x16::splat(simd, SLOPE) / base;
             // The second derivative is the power 0.4: of `1 - x` that is at least `1 - x`, and of `1 + x` at most `1 + 0.4 x`.
             let (x, half) = (step * limits.widest, step * (1.4 / 2.0));
             let (bent, most_bent) = (squares[0] * half, squares[1] * half);
-            let least = (bent - bent * x).max(zero) * (f64x8::splat(simd, 1.0) - step * bent).max(zero);
+            let least = (bent - bent * x).max(zero) * (f32x16::splat(simd, 1.0) - step * bent).max(zero);
             // Below, the curve is a straight line.
-            let is_curved = mean.simd_gt(f64x8::splat(simd, BEND));
+            let is_curved = mean.simd_gt(f32x16::splat(simd, BEND));
             (is_curved.select(least, zero), most_bent + most_bent * x * 0.4)
         };
         let certain = self.is_unclamped(simd) & self.is_smooth(simd);
@@ -163,7 +181,7 @@ impl<S: Simd> ValueSpread<S> {
     /// The ends of the mean of what is stored.
     #[inline(always)]
     pub(crate) fn ends(self, simd: S) -> Ends<S> {
-        let off = self.limits.rounded + OF_PLANES;
+        let off = self.limits.rounded;
         ([self.mean - off, self.mean + off], self.is_unclamped(simd))
     }
 
@@ -171,27 +189,27 @@ impl<S: Simd> ValueSpread<S> {
     #[inline(always)]
     fn is_unclamped(self, simd: S) -> u64 {
         let [least, most] = self.limits.unclamped;
-        let is_unclamped = self.mean.simd_gt(f64x8::splat(simd, least)) & self.mean.simd_lt(f64x8::splat(simd, most));
+        let is_unclamped = self.mean.simd_gt(f32x16::splat(simd, least)) & self.mean.simd_lt(f32x16::splat(simd, most));
         is_unclamped.to_bitmask()
     }
 
     /// A bit for each pixel none of whose values lies where the curve has its kink.
     #[inline(always)]
     fn is_smooth(self, simd: S) -> u64 {
-        let near = f64x8::splat(simd, self.limits.near_bend);
+        let near = f32x16::splat(simd, self.limits.near_bend);
         (self.mean - BEND).abs().simd_gt(near).to_bitmask()
     }
 }
 
 /// The bytes that lie nearest to values between these ends, and a bit for each pixel of which that is one.
 #[inline(always)]
-fn bytes_between<S: Simd>(simd: S, [least, most]: [f64x8<S>; 2]) -> (u64x8<S>, u64) {
+fn bytes_between<S: Simd>(simd: S, [least, most]: [f32x16<S>; 2]) -> (u32x16<S>, u64) {
     // Where whole numbers stand in the lower bits.
-    const WHOLE: f64 = (1_u64 << 52) as f64;
+    const WHOLE: f32 = (1 << 23) as f32;
     // Half a byte more, so that cutting off rounds.
     let low = ((least + 128.0) * (1.0 / 256.0)).floor();
     let high = ((most + 128.0) * (1.0 / 256.0)).floor();
-    let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
+    let bytes = (low.max(f32x16::splat(simd, 0.0)) + WHOLE).bitcast::<u32x16<S>>() & 0xFF;
     (bytes, low.simd_eq(high).to_bitmask())
 }
 
@@ -240,21 +258,23 @@ mod tests {
                 .map(|value| Premultiplied16([value.round() as u16, 0, 0, Premultiplied16::ONE]))
                 .collect();
             let pixel = |space| SampleMean::new(space, count, Rules::Standard).pixel(&samples);
-            let expected =
-                [ResolveSpace::Linear, ResolveSpace::Stored].map(|space| u64::from(pixel(space) >> 16 & 0xFF));
+            let expected = [ResolveSpace::Linear, ResolveSpace::Stored].map(|space| pixel(space) >> 16 & 0xFF);
             for (name, level) in simd::tested() {
                 let found = dispatch!(level, simd => {
-                    let number = |value| f64x8::splat(simd, value);
-                    let spread = ValueSpread { mean: number(mean), limits: ValueLimits::STORED.within(reach) };
+                    let number = |value: f64| f32x16::splat(simd, value as f32);
+                    let spread = ValueSpread { mean: number(mean), limits: ValueLimits::STORED.within(reach, 0.0) };
                     let light = spread.bytes_of_light(simd, || [number(squares); 2]);
                     [light, spread.bytes(simd)].map(|(bytes, mask)| (bytes.to_array(), mask))
                 });
                 for (i, ((bytes, mask), expected)) in found.into_iter().zip(expected).enumerate() {
-                    assert!(mask == 0 || mask == 0xFF, "all pixels are alike");
+                    assert!(mask == 0 || mask == ALL, "all pixels are alike");
                     all[i] += 1;
                     if mask != 0 {
                         certain[i] += 1;
-                        assert_eq!(bytes, [expected; 8], "{name}: {mean}, {squares}, {reach}: {values:?}");
+                        assert_eq!(
+                            bytes, [expected; PIXELS],
+                            "{name}: {mean}, {squares}, {reach}: {values:?}"
+                        );
                     }
                 }
             }

@@ -10,8 +10,8 @@ use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x8, u32x16};
 
 use crate::raster::sampling::positions::Position;
 
-/// Samples whose places are added up together.
-const TOGETHER: usize = 16;
+/// Samples whose places are looked at together.
+pub(crate) const TOGETHER: usize = 16;
 
 /// Pixels whose places are added up together.
 const PIXELS: usize = 8;
@@ -54,6 +54,11 @@ impl PlaceSums {
             places: [x + right, y + down],
             squares: [a + xx, b + xy, c + yy],
         }
+    }
+
+    /// The mean column and row.
+    pub(crate) fn means(&self) -> [f64; 2] {
+        self.places.map(|sum| f64::from(sum) / f64::from(self.count.max(1)))
     }
 
     /// Of those of up to 64 samples that a mask names, the first one by its lowest bit.
@@ -148,7 +153,7 @@ fn places_of_eight<S: Simd>(simd: S, pixels: &[[Position; TOGETHER]]) -> u32x8<S
 
 /// The places of up to sixteen samples, and zeros.
 #[inline(always)]
-fn sixteen(places: &[Position]) -> [Position; TOGETHER] {
+pub(crate) fn sixteen(places: &[Position]) -> [Position; TOGETHER] {
     if let Some(places) = places.first_chunk() {
         return *places;
     }

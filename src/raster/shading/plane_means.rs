@@ -10,15 +10,14 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8, u64x8};
+use fearless_simd::{Simd, dispatch, f32x16, i32x16, u16x32, u32x16};
 
-use crate::color::{Premultiplied16, SampleMean, SpreadLimits, ValueLimits, ValueSpread};
+use crate::color::{PIXELS, Premultiplied16, SampleMean, SpreadLimits, ValueLimits, ValueSpread};
 use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
-use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
-use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word, number};
+use crate::raster::shading::kernel::{ONE, first_sample};
 use crate::raster::shading::kind::Shade;
 use crate::rules::Rules;
 use crate::simd;
@@ -27,12 +26,14 @@ use crate::simd;
 const FEW: usize = 16;
 const MANY: usize = SampleRate::MAX as usize;
 
-/// How the samples of [`LANES`] pixels are spread, in points of the lattice.
-pub(super) struct PlaceSpreads {
+/// How the samples of [`PIXELS`] pixels are spread, in points of the lattice.
+pub(super) struct PlaceSpreads<S: Simd> {
+    /// How many these are.
+    pub(super) counts: f32x16<S>,
     /// Of columns and of rows.
-    pub(super) mean: [[f64; LANES]; 2],
+    pub(super) means: [f32x16<S>; 2],
     /// The mean squares of how far columns and rows are from there, and between these the mean of their products.
-    pub(super) squares: [[f64; LANES]; 3],
+    squares: [f32x16<S>; 3],
 }
 
 /// Opaque colours in planes.
@@ -47,8 +48,23 @@ pub(super) struct PlaneColors<'a> {
 /// Planes through what samples show once flat colours are painted over them.
 pub(super) struct TintedPlanes {
     /// In units of [`Premultiplied16`].
-    pub(super) planes: Planes<3>,
-    pub(super) limits: [ValueLimits; 3],
+    planes: Planes<3>,
+    limits: [ValueLimits; 3],
+}
+
+/// The same as seen from the first of some pixels: near it 32 bits are enough, and how far they are not is known.
+pub(super) struct NearPlanes {
+    first: [u16; 2],
+    /// At some point of that pixel.
+    at_first: [f32; 3],
+    /// Change from one pixel to the next on its right, and to the one below.
+    right: [f32; 3],
+    down: [f32; 3],
+    /// Change from one point of the lattice to the next.
+    pub(super) dx: [f32; 3],
+    pub(super) dy: [f32; 3],
+    /// What is known of the values of each pixel.
+    limits: [SpreadLimits; 3],
 }
 
 impl PlaneColors<'_> {
@@ -73,9 +89,9 @@ impl PlaneColors<'_> {
             return false;
         };
         let is_linear = matches!(mean, SampleMean::Linear(_));
-        let limits = shown.spread_limits(f64::from(pixels.pixels.grid.side * (2 * pixels.margin + 1)));
-        let shown = (&shown, &limits, middle);
-        dispatch!(simd::level(), simd => bounded_with(simd, shown, pixels.pixels, is_linear, (values, open)));
+        let reach = f64::from(pixels.pixels.grid.side * (2 * pixels.margin + 1) - 1);
+        let near = &shown.near(pixels.pixels, [middle; 2], reach);
+        dispatch!(simd::level(), simd => bounded_with(simd, near, pixels.pixels.places, is_linear, (values, open)));
         true
     }
 }
@@ -88,56 +104,49 @@ fn means_with<S: Simd>(
     mean: &SampleMean,
     values: &mut [u32],
 ) {
-    let grid = placed.pixels.grid;
-    let (first, side) = (first_sample(grid), f64::from(grid.side));
     let is_linear = matches!(mean, SampleMean::Linear(_));
-    let planes = colors.planes;
-    let shown = TintedPlanes::new(planes, placed.tints);
-    let limits = shown.spread_limits(side);
-    let per_sample = 1.0 / f64::from(u32::try_from(placed.count.max(1)).unwrap_or(u32::MAX));
-    let mut spread = PlaceSpreads::of_all(simd, placed.inside(0));
-    for (block, values) in values.chunks_mut(LANES).enumerate() {
-        let at = block * LANES;
-        let places = &placed.pixels.places[at..at + values.len()];
+    let all = PlaceSums::of_all(simd, placed.inside(0));
+    // Of samples whose places differ from pixel to pixel, the lattice's first point.
+    let known = if placed.are_same() { all.means() } else { [0.0; 2] };
+    let reach = f64::from(placed.pixels.grid.side - 1);
+    let near = TintedPlanes::new(colors.planes, placed.tints).near(placed.pixels, known, reach);
+    let mut spread = PlaceSpreads::new(simd, &[all; PIXELS]);
+    for (block, values) in values.chunks_mut(PIXELS).enumerate() {
+        let range = block * PIXELS..block * PIXELS + values.len();
         let means = if placed.are_same() {
-            spread.means(simd)
+            None
         } else if is_linear {
-            for i in 0..places.len() {
-                spread.set(i, &PlaceSums::of_all(simd, placed.inside(at + i)));
+            let mut sums = [PlaceSums::default(); PIXELS];
+            for (sums, i) in sums.iter_mut().zip(range.clone()) {
+                *sums = PlaceSums::of_all(simd, placed.inside(i));
             }
-            spread.means(simd)
+            spread = PlaceSpreads::new(simd, &sums);
+            Some(spread.means)
         } else {
             // What is stored does not depend on squares.
-            let inside = placed.part(at..at + places.len()).inside;
-            let both = PlaceSums::places_of_pixels(simd, placed.count, inside);
-            [number(both & 0xFFFF) * per_sample, number(both >> 16) * per_sample]
+            Some(mean_places(simd, placed.part(range.clone())))
         };
-        let [columns, rows] = columns_and_rows(simd, places);
-        let right = columns * side + (first[0] - planes.pivot[0]) + means[0];
-        let down = rows * side + (first[1] - planes.pivot[1]) + means[1];
-        let (pixels, certain) = shown.pixels(
-            [right, down],
-            &limits,
+        let (pixels, certain) = near.pixels(
+            near.columns_and_rows(simd, &placed.pixels.places[range.clone()]),
+            means,
             #[inline(always)]
-            |values, [dx, dy]| {
+            |values, k| {
                 if !is_linear {
                     return values.bytes(simd);
                 }
                 values.bytes_of_light(
                     simd,
                     #[inline(always)]
-                    || [spread.squares_along(simd, [dx, dy]); 2],
+                    || [spread.squares_along(near.dx[k], near.dy[k]); 2],
                 )
             },
         );
-        let pixels = pixels.to_array();
-        for (i, value) in values.iter_mut().enumerate() {
-            *value = if certain >> i & 1 == 1 {
-                low_word(pixels[i])
-            } else if placed.count <= FEW {
-                one_by_one::<FEW>(colors.shade, placed, at + i, mean)
+        put(pixels, values);
+        for i in lanes_without(certain, values.len()) {
+            values[i] = if placed.count <= FEW {
+                one_by_one::<FEW>(colors.shade, placed, range.start + i, mean)
             } else {
-                one_by_one::<MANY>(colors.shade, placed, at + i, mean)
+                one_by_one::<MANY>(colors.shade, placed, range.start + i, mean)
             };
         }
     }
@@ -146,43 +155,76 @@ fn means_with<S: Simd>(
 #[inline(always)]
 fn bounded_with<S: Simd>(
     simd: S,
-    (shown, limits, middle): (&TintedPlanes, &[SpreadLimits; 3], f64),
-    Pixels { grid, places }: Pixels<'_>,
+    near: &NearPlanes,
+    places: &[[u16; 2]],
     is_linear: bool,
     (values, open): (&mut [u32], &mut Vec<usize>),
 ) {
-    let (first, side) = (first_sample(grid), f64::from(grid.side));
-    let from_pivot = [0, 1].map(|axis| first[axis] + middle - shown.planes.pivot[axis]);
-    let blocks = values.chunks_mut(LANES).zip(places.chunks(LANES));
+    let blocks = values.chunks_mut(PIXELS).zip(places.chunks(PIXELS));
     for (block, (values, places)) in blocks.enumerate() {
-        let [columns, rows] = columns_and_rows(simd, places);
-        let middle = [columns * side + from_pivot[0], rows * side + from_pivot[1]];
-        let (pixels, certain) = shown.pixels(
-            middle,
-            limits,
+        let (pixels, certain) = near.pixels(
+            near.columns_and_rows(simd, places),
+            None,
             #[inline(always)]
             |values, _| {
                 if is_linear {
                     // No values are spread wider than when half of them lie at either end.
-                    let squares = f64x8::splat(simd, values.limits.reach * values.limits.reach / 4.0);
+                    let squares = f32x16::splat(simd, values.limits.most_squares());
                     values.bytes_of_light(
                         simd,
                         #[inline(always)]
-                        || [f64x8::splat(simd, 0.0), squares],
+                        || [f32x16::splat(simd, 0.0), squares],
                     )
                 } else {
                     values.bytes(simd)
                 }
             },
         );
-        let pixels = pixels.to_array();
-        for (i, value) in values.iter_mut().enumerate() {
-            *value = low_word(pixels[i]);
-            if certain >> i & 1 == 0 {
-                open.push(block * LANES + i);
-            }
-        }
+        put(pixels, values);
+        open.extend(lanes_without(certain, values.len()).map(|i| block * PIXELS + i));
     }
+}
+
+/// Puts as many of the pixels as there is room for.
+#[inline(always)]
+fn put<S: Simd>(pixels: u32x16<S>, values: &mut [u32]) {
+    if let Some(values) = values.first_chunk_mut() {
+        pixels.store_array(values);
+    } else {
+        values.copy_from_slice(&pixels.as_slice()[..values.len()]);
+    }
+}
+
+/// Of the first lanes, so many of them, those that have no bit.
+#[inline(always)]
+fn lanes_without(bits: u64, count: usize) -> impl Iterator<Item = usize> {
+    let mut rest = !bits & ((1 << count) - 1);
+    std::iter::from_fn(move || {
+        let lane = rest.trailing_zeros() as usize;
+        let is_one = rest != 0;
+        rest &= rest.wrapping_sub(1);
+        is_one.then_some(lane)
+    })
+}
+
+/// The mean columns and rows of the samples of up to [`PIXELS`] pixels, each of which has its own.
+#[inline(always)]
+fn mean_places<S: Simd>(simd: S, placed: PlacedPixels<'_>) -> [f32x16<S>; 2] {
+    let half = placed.inside.len().min(placed.count * (PIXELS / 2));
+    let (first, second) = placed.inside.split_at(half);
+    let both = PlaceSums::places_of_pixels(simd, placed.count, first).combine(PlaceSums::places_of_pixels(
+        simd,
+        placed.count,
+        second,
+    ));
+    let per_sample = 1.0 / placed.count.max(1) as f32;
+    [number(both & 0xFFFF) * per_sample, number(both >> 16) * per_sample]
+}
+
+/// Whole numbers as floats.
+#[inline(always)]
+fn number<S: Simd>(whole: u32x16<S>) -> f32x16<S> {
+    f32x16::float_from(whole.bitcast::<i32x16<S>>())
 }
 
 /// Pixel `i` of the list, from each of its samples, of which there are at most `N`.
@@ -245,96 +287,137 @@ impl TintedPlanes {
         (all < MOST).then_some(self)
     }
 
-    /// The pixels whose samples have these means, from the pivot, and a bit for each that is certain; `bytes` says the bytes of a
-    /// channel that changes so much from one point of the lattice to the next, across and down.
+    /// As seen from the first of these pixels, at this point of the lattice inside of it; no two samples that count for a pixel lie
+    /// farther apart than `reach` on each axis.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "what is lost is told")]
+    pub(super) fn near(&self, Pixels { grid, places }: Pixels<'_>, inside: [f64; 2], reach: f64) -> NearPlanes {
+        /// Numbers of 32 bits are off by `2^-24` of themselves; each is, as well as up to five sums, and products of two.
+        const OFF: f64 = 1.0 / (1_u32 << 21) as f64;
+        let Self { planes, limits } = self;
+        let (side, first) = (f64::from(grid.side), places.first().copied().unwrap_or_default());
+        let from_pivot =
+            |axis: usize| first_sample(grid)[axis] + f64::from(first[axis]) * side + inside[axis] - planes.pivot[axis];
+        let (right, down) = (from_pivot(0), from_pivot(1));
+        let [width, height] = farthest(first, places);
+        let at_first = [0, 1, 2].map(|k| planes.at_pivot[k] + planes.dy[k] * down + planes.dx[k] * right);
+        let of = |k: usize| {
+            let [dx, dy] = [planes.dx[k].abs(), planes.dy[k].abs()];
+            let most = at_first[k].abs() + (dx * (width + 1.0) + dy * (height + 1.0)) * side;
+            limits[k].within((dx + dy) * reach, most * OFF)
+        };
+        let limits = [of(0), of(1), of(2)];
+        NearPlanes {
+            first,
+            at_first: at_first.map(|value| value as f32),
+            right: planes.dx.map(|value| (value * side) as f32),
+            down: planes.dy.map(|value| (value * side) as f32),
+            dx: planes.dx.map(|value| value as f32),
+            dy: planes.dy.map(|value| value as f32),
+            limits,
+        }
+    }
+}
+
+/// How many columns and rows from the first one the farthest of some pixels are.
+#[inline(always)]
+fn farthest(first: [u16; 2], places: &[[u16; 2]]) -> [f64; 2] {
+    let (mut least, mut most) = (first, first);
+    for place in places {
+        for axis in 0..2 {
+            least[axis] = least[axis].min(place[axis]);
+            most[axis] = most[axis].max(place[axis]);
+        }
+    }
+    [0, 1].map(|axis| f64::from((first[axis] - least[axis]).max(most[axis] - first[axis])))
+}
+
+impl NearPlanes {
+    /// Columns and rows of up to [`PIXELS`] pixels, from the first one; what is left over repeats the first of them.
+    #[inline(always)]
+    pub(super) fn columns_and_rows<S: Simd>(&self, simd: S, places: &[[u16; 2]]) -> [f32x16<S>; 2] {
+        let all = if let Some(places) = places.first_chunk() {
+            *places
+        } else {
+            let mut all = [self.first; PIXELS];
+            for (all, place) in all.iter_mut().zip(places) {
+                *all = *place;
+            }
+            all
+        };
+        let both: u32x16<S> = u16x32::from_slice(simd, all.as_flattened()).bitcast();
+        let [column, row] = self.first.map(f32::from);
+        [number(both & 0xFFFF) - column, number(both >> 16) - row]
+    }
+
+    /// The pixels there, and a bit for each that is certain. Where samples lie at other places in each, `means` says where their
+    /// middles are; `bytes` says the bytes of a channel by its number.
     #[inline(always)]
     fn pixels<S: Simd>(
         &self,
-        [right, down]: [f64x8<S>; 2],
-        limits: &[SpreadLimits; 3],
-        bytes: impl Fn(ValueSpread<S>, [f64; 2]) -> (u64x8<S>, u64),
-    ) -> (u64x8<S>, u64) {
-        let (mut pixels, mut certain) = (u64x8::splat(right.simd, 0xFF), u64::MAX);
+        at: [f32x16<S>; 2],
+        means: Option<[f32x16<S>; 2]>,
+        bytes: impl Fn(ValueSpread<S>, usize) -> (u32x16<S>, u64),
+    ) -> (u32x16<S>, u64) {
+        let (mut pixels, mut certain) = (u32x16::splat(at[0].simd, 0xFF), u64::MAX);
         for k in 0..3 {
-            let (found, of_channel) = bytes(
-                self.spread(k, [right, down], limits),
-                [self.planes.dx[k], self.planes.dy[k]],
-            );
+            let (found, of_channel) = bytes(self.spread(k, at, means), k);
             certain &= of_channel;
             pixels = pixels << 8 | found;
         }
         (pixels, certain)
     }
 
-    /// What is known of the channels of a square of a lattice with so many points along a side.
-    pub(super) fn spread_limits(&self, side: f64) -> [SpreadLimits; 3] {
-        let Self { planes, limits } = self;
-        [0, 1, 2].map(|k| limits[k].within((planes.dx[k].abs() + planes.dy[k].abs()) * (side - 1.0)))
-    }
-
-    /// A channel of pixels whose samples have these means, from the pivot.
+    /// A channel of the pixels there.
     #[inline(always)]
     pub(super) fn spread<S: Simd>(
         &self,
         k: usize,
-        [right, down]: [f64x8<S>; 2],
-        limits: &[SpreadLimits; 3],
+        [columns, rows]: [f32x16<S>; 2],
+        means: Option<[f32x16<S>; 2]>,
     ) -> ValueSpread<S> {
-        let planes = &self.planes;
+        let mut mean = columns * self.right[k] + self.at_first[k] + rows * self.down[k];
+        if let Some([columns, rows]) = means {
+            mean = mean + columns * self.dx[k] + rows * self.dy[k];
+        }
         ValueSpread {
-            // In the order of `Planes::at`.
-            mean: down * planes.dy[k] + planes.at_pivot[k] + right * planes.dx[k],
-            limits: limits[k],
+            mean,
+            limits: self.limits[k],
         }
     }
 }
 
-impl PlaceSpreads {
-    pub(super) const NONE: Self = Self {
-        mean: [[0.0; LANES]; 2],
-        squares: [[0.0; LANES]; 3],
-    };
-
-    /// Of samples that lie there in every pixel.
+impl<S: Simd> PlaceSpreads<S> {
+    /// Of samples whose places add up to this.
     #[inline(always)]
-    fn of_all<S: Simd>(simd: S, places: &[Position]) -> Self {
-        let mut spread = Self::NONE;
-        spread.set(0, &PlaceSums::of_all(simd, places));
-        spread.mean = spread.mean.map(|[first, ..]| [first; LANES]);
-        spread.squares = spread.squares.map(|[first, ..]| [first; LANES]);
-        spread
-    }
-
-    /// The mean columns and rows.
-    #[inline(always)]
-    fn means<S: Simd>(&self, simd: S) -> [f64x8<S>; 2] {
-        [
-            f64x8::simd_from(simd, self.mean[0]),
-            f64x8::simd_from(simd, self.mean[1]),
-        ]
+    pub(super) fn new(simd: S, sums: &[PlaceSums; PIXELS]) -> Self {
+        let [mut counts, mut right, mut down] = [[0; PIXELS]; 3];
+        let mut squares = [[0; PIXELS]; 3];
+        for (i, sums) in sums.iter().enumerate() {
+            counts[i] = sums.count;
+            [right[i], down[i]] = sums.places;
+            for (squares, of_sums) in squares.iter_mut().zip(sums.squares) {
+                squares[i] = of_sums;
+            }
+        }
+        let counts = number(u32x16::simd_from(simd, counts));
+        let per_sample = f32x16::splat(simd, 1.0) / counts.max(f32x16::splat(simd, 1.0));
+        let mean = |sums: [u32; PIXELS]| number(u32x16::simd_from(simd, sums)) * per_sample;
+        let (x, y) = (mean(right), mean(down));
+        let [xx, xy, yy] = squares;
+        Self {
+            counts,
+            means: [x, y],
+            squares: [mean(xx) - x * x, mean(xy) - x * y, mean(yy) - y * y],
+        }
     }
 
     /// Of values that change so much from one point of the lattice to the next, across and down, the mean squares of how far they are
     /// from their mean.
     #[inline(always)]
-    pub(super) fn squares_along<S: Simd>(&self, simd: S, [dx, dy]: [f64; 2]) -> f64x8<S> {
-        let [xx, xy, yy] = &self.squares;
-        f64x8::simd_from(simd, *xx) * (dx * dx)
-            + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
-            + f64x8::simd_from(simd, *yy) * (dy * dy)
-    }
-
-    /// In the lane of a pixel, or of a part of one, of whose samples this is known.
-    #[inline(always)]
-    pub(super) fn set(&mut self, lane: usize, sums: &PlaceSums) {
-        let per_sample = 1.0 / f64::from(sums.count.max(1));
-        let mean = |sum: u32| f64::from(sum) * per_sample;
-        let [x, y] = sums.places.map(mean);
-        (self.mean[0][lane], self.mean[1][lane]) = (x, y);
-        let [xx, xy, yy] = sums.squares;
-        self.squares[0][lane] = mean(xx) - x * x;
-        self.squares[1][lane] = mean(xy) - x * y;
-        self.squares[2][lane] = mean(yy) - y * y;
+    pub(super) fn squares_along(&self, dx: f32, dy: f32) -> f32x16<S> {
+        let [xx, xy, yy] = self.squares;
+        xx * (dx * dx) + xy * (2.0 * dx * dy) + yy * (dy * dy)
     }
 }
 
@@ -347,7 +430,7 @@ mod tests {
     use crate::geometry::edge::doubled_area;
     use crate::geometry::subpixel::GridPoint;
     use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
-    use crate::raster::sampling::positions::{SamplePositions, lattice};
+    use crate::raster::sampling::positions::{Position, SamplePositions, lattice};
     use crate::raster::shading::context::PlacedParts;
     use crate::raster::shading::vertex_kernel::point_kernel;
     use crate::raster::{SamplePattern, Seed};
@@ -405,7 +488,8 @@ mod tests {
                 side: subpixels.side().cast_unsigned(),
                 origin: [u.int_in_range(-20..=20)?, 2],
             };
-            let places: Vec<[u16; 2]> = (0..9).map(|i| [i * 3 % 7, i % 4]).collect();
+            let step = *u.choose(&[1, 7])?;
+            let places: Vec<[u16; 2]> = (0..21).map(|i| [i * 3 % 7 * step, i % 4 * step]).collect();
             let pixels = if positions.are_same() { 1 } else { places.len() };
             let mut inside = Vec::new();
             for place in &places[..pixels] {

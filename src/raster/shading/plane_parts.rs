@@ -16,62 +16,53 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8};
+use fearless_simd::{Simd, dispatch};
 
-use crate::color::{SampleMean, SumBounds, sums_at};
+use crate::color::{PIXELS, SampleMean, SumBounds, sums_at};
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::PlacedParts;
-use crate::raster::shading::kernel::{LANES, columns_and_rows, first_sample};
-use crate::raster::shading::plane_means::{PlaceSpreads, PlaneColors, TintedPlanes};
+use crate::raster::shading::plane_means::{NearPlanes, PlaceSpreads, PlaneColors, TintedPlanes};
 use crate::simd;
 
 impl PlaneColors<'_> {
     /// Between what the samples of each part add up to.
     pub(super) fn part_bounds(self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) {
-        let shown = TintedPlanes::new(self.planes, parts.tints);
-        dispatch!(simd::level(), simd => bounds_with(simd, &shown, parts, mean, bounds));
+        let reach = f64::from(parts.pixels.grid.side - 1);
+        let near = &TintedPlanes::new(self.planes, parts.tints).near(parts.pixels, [0.0; 2], reach);
+        dispatch!(simd::level(), simd => bounds_with(simd, near, parts, mean, bounds));
     }
 }
 
 #[inline(always)]
 fn bounds_with<S: Simd>(
     simd: S,
-    shown: &TintedPlanes,
+    near: &NearPlanes,
     parts: PlacedParts<'_>,
     mean: &SampleMean,
     bounds: &mut [SumBounds],
 ) {
-    let grid = parts.pixels.grid;
-    let (first, side) = (first_sample(grid), f64::from(grid.side));
-    let (pivot, limits) = (shown.planes.pivot, shown.spread_limits(side));
     let is_linear = matches!(mean, SampleMean::Linear(_));
-    let mut spread = PlaceSpreads::NONE;
-    for (block, bounds) in bounds.chunks_mut(LANES).enumerate() {
-        let at = block * LANES;
-        let sums = &parts.sums[at..at + bounds.len()];
-        let mut counts = [0.0; LANES];
-        for (i, sums) in sums.iter().enumerate() {
-            spread.set(i, sums);
-            counts[i] = f64::from(sums.count);
-        }
-        let counts = f64x8::simd_from(simd, counts);
-        let [columns, rows] = columns_and_rows(simd, &parts.pixels.places[at..at + bounds.len()]);
-        let right = columns * side + (first[0] - pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
-        let down = rows * side + (first[1] - pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
-        let (mut ends, mut certain) = ([[[0; LANES]; 2]; 3], u64::MAX);
+    for (block, bounds) in bounds.chunks_mut(PIXELS).enumerate() {
+        let range = block * PIXELS..block * PIXELS + bounds.len();
+        let mut sums = [PlaceSums::default(); PIXELS];
+        sums[..bounds.len()].copy_from_slice(&parts.sums[range.clone()]);
+        let spread = PlaceSpreads::new(simd, &sums);
+        let at = near.columns_and_rows(simd, &parts.pixels.places[range]);
+        let (mut ends, mut certain) = ([[[0; PIXELS]; 2]; 3], u64::MAX);
         for (k, ends) in ends.iter_mut().enumerate() {
-            let values = shown.spread(k, [right, down], &limits);
+            let values = near.spread(k, at, Some(spread.means));
             let ([least, most], of_channel) = if is_linear {
-                let squares = spread.squares_along(simd, [shown.planes.dx[k], shown.planes.dy[k]]);
-                values.ends_of_light(simd, [squares; 2])
+                values.ends_of_light(simd, [spread.squares_along(near.dx[k], near.dy[k]); 2])
             } else {
                 values.ends(simd)
             };
             certain &= of_channel;
-            *ends = [sums_at(simd, least, counts, mean), sums_at(simd, most, counts, mean)];
+            *ends = [
+                sums_at(simd, least, spread.counts, mean),
+                sums_at(simd, most, spread.counts, mean),
+            ];
         }
-        for (i, (bounds, PlaceSums { count, .. })) in bounds.iter_mut().zip(sums).enumerate() {
+        for (i, (bounds, PlaceSums { count, .. })) in bounds.iter_mut().zip(&sums).enumerate() {
             let [r, g, b] = &ends;
             *bounds = if certain >> i & 1 == 1 {
                 SumBounds {

@@ -11,6 +11,7 @@ use crate::color::{Light, Premultiplied16, SampleMean, SumBounds};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::bounded_parts::BoundedParts;
+use crate::raster::paint::visibility::fragment_points::{PACKED, PixelPlaces, pack};
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
 use crate::raster::paint::visibility::shading_queue::{Fragment, SharedPixels};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
@@ -60,6 +61,8 @@ pub(super) struct SampleShades {
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
     pub(super) inside: Vec<Position>,
     random: Vec<u64>,
+    /// The first points of the pixels of fragments.
+    corners: Vec<[u16; 2]>,
     /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
     by_mask: PlaceSumsByMask,
     sums: Vec<PlaceSums>,
@@ -99,24 +102,19 @@ impl SampleShades {
     /// Finds the samples of fragments, each of one of the pixels of `whole`; `grid` counts the tile's.
     pub(super) fn gather(&mut self, fragments: &[Fragment], positions: &SamplePositions, grid: SampleGrid) {
         self.place(positions, grid);
+        self.corners.clear();
+        self.corners
+            .extend(self.whole.iter().map(|place| first_point(*place, grid)));
         let count = fragments.iter().map(|part| part.mask.count_ones() as usize).sum();
         self.points.clear();
-        self.points.resize(count, [0; 2]);
-        let mut points = &mut self.points[..];
-        // In every pixel the places of the first one where these are the same.
-        let samples = positions.count();
-        let step = if positions.are_same() { 0 } else { samples };
-        for ((i, Fragment { first, mask, .. }), place) in fragments.iter().enumerate().zip(&self.whole) {
-            let corner = first_point(*place, grid);
-            let of_pixel = &self.inside[i * step..][..samples][usize::from(*first)..];
-            let (of_fragment, others) = points.split_at_mut(mask.count_ones() as usize);
-            points = others;
-            let mut rest = *mask;
-            for point in of_fragment {
-                *point = point_at(corner, of_pixel[rest.trailing_zeros() as usize]);
-                rest &= rest - 1;
-            }
-        }
+        self.points.resize(count + PACKED, [0; 2]);
+        let pixels = PixelPlaces {
+            corners: &self.corners,
+            inside: &self.inside,
+            count: positions.count(),
+        };
+        dispatch!(simd::level(), simd => pack(simd, fragments, pixels, &mut self.points));
+        self.points.truncate(count);
     }
 
     /// Shades the samples of fragments and adds them up, each to its pixel. How many samples.

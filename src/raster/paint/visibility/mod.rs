@@ -10,6 +10,7 @@ mod bounded_parts;
 pub(in crate::raster) mod buffer;
 mod by_samples;
 pub(in crate::raster) mod flat_resolve;
+mod fragment_points;
 mod fragments;
 mod known_pixels;
 mod layer_end;

@@ -1,8 +1,11 @@
 //! Which vector instructions the kernels use: the best the machine has, or fewer where a user or a test says so.
 
+mod packed;
+
 use std::sync::OnceLock;
 
 pub use fearless_simd::Level;
+pub(crate) use packed::{PACKED, pack_four};
 
 const _: () = assert!(
     cfg!(target_endian = "little"),

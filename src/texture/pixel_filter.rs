@@ -7,7 +7,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, i32x8};
+use fearless_simd::{Simd, dispatch, i32x8, u16x8, u32x4};
 
 use super::block_weights::{LARGE, rows, rows_beyond};
 use super::covered::Covered;
@@ -25,7 +25,7 @@ use super::tent_weights::weigh;
 use super::texel_coordinates::{Positions, columns_and_rows};
 use super::{PixelSampling, Wrap, anisotropic_filter, block_filter, sample_filter};
 use crate::color::{Premultiplied16, Resolver};
-use crate::simd::Level;
+use crate::simd::{Level, PACKED, pack_four};
 
 /// Where a vector of pixels reads one level.
 struct Blocks<S: Simd, const ENDLESS: bool> {
@@ -44,7 +44,7 @@ const BATCH: usize = 64;
 
 /// Some samples of some pixels, one pixel after the other.
 struct Batch {
-    points: [[u16; 2]; BATCH],
+    points: [[u16; 2]; BATCH + PACKED],
     count: usize,
     /// Whose they are: pixels of a list, and where the samples of each end.
     pixels: [(u32, u32); BATCH],
@@ -221,7 +221,7 @@ fn sum_samples<S: Simd>(
         if are_whole {
             batch.fill_whole(list.pixels, inside, scale.side, &mut next);
         } else {
-            batch.fill(list, inside, scale.side, &mut next);
+            batch.fill(simd, list, (inside, scale.side), &mut next);
         }
         let points = &batch.points[..batch.count];
         let colors = &mut colors[..batch.count];
@@ -238,7 +238,7 @@ fn sum_samples<S: Simd>(
 
 impl Batch {
     const EMPTY: Self = Self {
-        points: [[0; 2]; BATCH],
+        points: [[0; 2]; BATCH + PACKED],
         count: 0,
         pixels: [(0, 0); BATCH],
         pixel_count: 0,
@@ -269,15 +269,21 @@ impl Batch {
 
     /// Takes samples, as many as fit, from `next` on, and moves it on. In a pixel they lie `inside`.
     #[inline(always)]
-    fn fill(&mut self, list: PixelList<'_>, inside: &[[u16; 2]], side: u32, next: &mut NextSample) {
+    fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        list: PixelList<'_>,
+        (inside, side): (&[[u16; 2]], u32),
+        next: &mut NextSample,
+    ) {
         let side = u16::try_from(side).unwrap_or(1);
         (self.count, self.pixel_count) = (0, 0);
         let NextSample { mut pixel, mut sample } = *next;
-        while pixel < list.pixels.len() && self.count < BATCH && self.pixel_count < BATCH {
+        while pixel < list.pixels.len() && self.count <= BATCH - PACKED && self.pixel_count < BATCH {
             let corner = list.pixels[pixel].map(|at| at.saturating_mul(side));
             sample = match list.masks {
                 None => self.take(corner, inside, sample),
-                Some(masks) => self.take_some(corner, &inside[..inside.len().min(64)], (sample, masks[pixel])),
+                Some(masks) => self.take_some(simd, corner, &inside[..inside.len().min(64)], (sample, masks[pixel])),
             };
             let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
             self.pixels[self.pixel_count] = (number(pixel), number(self.count));
@@ -310,21 +316,36 @@ impl Batch {
         end
     }
 
-    /// The same of those that a mask names; `usize::MAX` once all of them are taken.
+    /// The same of those that a mask names, [`PACKED`] at a time; `usize::MAX` once all of them are taken.
     #[inline(always)]
-    fn take_some(&mut self, corner: [u16; 2], inside: &[[u16; 2]], (from, mask): (usize, u64)) -> usize {
-        let mut rest = mask.checked_shr(u32::try_from(from).unwrap_or(64)).unwrap_or(0) << from;
-        while rest != 0 {
-            let sample = rest.trailing_zeros() as usize;
-            let Some(inside) = inside.get(sample) else {
+    fn take_some<S: Simd>(
+        &mut self,
+        simd: S,
+        [left, top]: [u16; 2],
+        inside: &[[u16; 2]],
+        (from, mask): (usize, u64),
+    ) -> usize {
+        let corner: u16x8<S> = u32x4::splat(simd, u32::from(left) | u32::from(top) << 16).bitcast();
+        let mut rest = mask.checked_shr(u32::try_from(from).unwrap_or(64)).unwrap_or(0);
+        for (first, inside) in (from..).step_by(PACKED).zip(inside[from..].chunks(PACKED)) {
+            if rest == 0 {
                 break;
-            };
-            if self.count == BATCH {
-                return sample;
             }
-            self.points[self.count] = point_at(corner, *inside);
-            self.count += 1;
-            rest &= rest - 1;
+            if self.count > BATCH - PACKED {
+                return first;
+            }
+            let mut four = [[0; 2]; PACKED];
+            if let Some(inside) = inside.first_chunk() {
+                four = *inside;
+            } else {
+                four[..inside.len()].copy_from_slice(inside);
+                rest &= (1 << inside.len()) - 1;
+            }
+            let points = u16x8::from_slice(simd, four.as_flattened()) + corner;
+            if let Some(taken) = self.points[self.count..].first_chunk_mut() {
+                self.count += pack_four(simd, points, rest, taken);
+            }
+            rest >>= PACKED;
         }
         usize::MAX
     }
@@ -395,7 +416,7 @@ fn sum_texels<S: Simd, const ENDLESS: bool>(
             } else {
                 channels << (8 - scale.sample_bits)
             };
-            *sum = scaled.bitcast::<fearless_simd::u32x4<S>>().to_array();
+            *sum = scaled.bitcast::<u32x4<S>>().to_array();
         }
     }
 }

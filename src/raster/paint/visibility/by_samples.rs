@@ -11,14 +11,14 @@ use crate::color::{Light, Premultiplied16, SampleMean, SumBounds};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::bounded_parts::BoundedParts;
-use crate::raster::paint::visibility::fragment_points::{PACKED, PixelPlaces, pack};
+use crate::raster::paint::visibility::fragment_points::{PixelPlaces, pack};
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
 use crate::raster::paint::visibility::shading_queue::{Fragment, SharedPixels};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::context::{BoundedPixels, PixelRun, Pixels, PlacedParts, PlacedPixels, ShadeContext};
-use crate::simd;
+use crate::simd::{self, PACKED};
 use crate::texture::SampleGrid;
 
 /// Pixels that are shaded together, and some more: so many that their samples stay in a core's cache.

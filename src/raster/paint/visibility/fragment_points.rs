@@ -1,10 +1,4 @@
-//! Where the samples of fragments lie: the points that masks name, packed one after the other.
-//!
-//! ```text
-//!     mask        1 0 1 1   0 0 1 0
-//!     points      a b c d   e f g h
-//!     packed      a c d g               four at a time: a shuffle brings those that are named to the front
-//! ```
+//! Where the samples of fragments lie: the points that their masks name, one after the other.
 
 #![expect(
     clippy::inline_always,
@@ -12,14 +6,12 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, u8x16, u8x32, u16x8, u16x16, u32x8};
+use fearless_simd::{Simd, u8x32, u16x16, u32x8};
 
 use crate::raster::paint::visibility::shading_queue::Fragment;
 use crate::raster::sampling::place_sums::{TOGETHER, sixteen};
 use crate::raster::sampling::positions::Position;
-
-/// Points that are packed together.
-pub(super) const PACKED: usize = 4;
+use crate::simd::{PACKED, pack_four};
 
 /// The samples of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -30,27 +22,6 @@ pub(super) struct PixelPlaces<'p> {
     pub(super) inside: &'p [Position],
     /// How many a pixel has.
     pub(super) count: usize,
-}
-
-/// The order of bytes that brings those of four points to the front that these bits name.
-static ORDERS: [[u8; 16]; 1 << PACKED] = orders();
-
-const fn orders() -> [[u8; 16]; 1 << PACKED] {
-    let mut orders = [[0; 16]; 1 << PACKED];
-    let mut bits = 0;
-    while bits < orders.len() {
-        let (mut point, mut byte) = (0_u8, 0);
-        while point < 4 {
-            let mut of_point = 0;
-            while bits >> point & 1 == 1 && of_point < 4 {
-                orders[bits][byte] = 4 * point + of_point;
-                (of_point, byte) = (of_point + 1, byte + 1);
-            }
-            point += 1;
-        }
-        bits += 1;
-    }
-    orders
 }
 
 /// The points of fragments, each of one of the pixels; `points` has room for all of them and [`PACKED`] more.
@@ -72,12 +43,9 @@ pub(super) fn pack<S: Simd>(simd: S, fragments: &[Fragment], pixels: PixelPlaces
             for eight in [low + corner, high + corner] {
                 let (low, high) = eight.split();
                 for four in [low, high] {
-                    let named = rest % (1 << PACKED);
-                    let order = u8x16::load_array_ref(simd, &ORDERS[usize::try_from(named).unwrap_or(0)]);
-                    let packed = four.bitcast::<u8x16<S>>().swizzle_dyn_within_blocks(order);
-                    let packed: u16x8<S> = packed.bitcast();
-                    packed.store_slice(points[at..at + PACKED].as_flattened_mut());
-                    at += named.count_ones() as usize;
+                    if let Some(points) = points[at..].first_chunk_mut() {
+                        at += pack_four(simd, four, rest, points);
+                    }
                     rest >>= PACKED;
                 }
             }

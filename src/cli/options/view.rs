@@ -49,7 +49,8 @@ pub(in crate::cli) struct ViewerOptions {
     /// Write a line of CSV for each picture that the window shows: what it shows, milliseconds per stage
     #[arg(long, value_name = "FILE", conflicts_with = "headless")]
     pub(in crate::cli) frame_log: Option<PathBuf>,
-    /// Neither take up what the last window left (size, theme, opened files) nor remember it for the next
+    /// Neither take up what the last window left (size and place, theme, settings, folded sections, opened files) nor remember it
+    /// for the next
     #[arg(long)]
     pub(in crate::cli) no_config: bool,
     /// Replace files of another making too: the frame log, slides; never what is read

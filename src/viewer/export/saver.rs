@@ -264,7 +264,7 @@ fn save_new(
     picture: &Framebuffer,
     recipe: Option<&Recipe>,
 ) -> Result<(PathBuf, [u32; 2]), String> {
-    let cure = "choose another folder with --screenshot-dir";
+    let cure = "choose another folder with \"Save picture as\" or --screenshot-dir";
     let stem = name.name(recipe.map(|recipe| &recipe.spec), &now());
     for attempt in 1..=ATTEMPTS {
         let name = match attempt {

@@ -1,4 +1,5 @@
-//! Points that masks name, packed one after the other, four at a time: a shuffle brings those that are named to the front.
+//! Points that masks name, packed one after the other, four at a time: a shuffle brings those that are named to the front, where
+//! there is one. Nothing branches on the bits, which nobody can foresee.
 //!
 //! ```text
 //!     mask        1 0 1 1   0 0 1 0
@@ -11,6 +12,9 @@ use fearless_simd::{Simd, u8x16, u16x8};
 
 /// Points that are packed together.
 pub(crate) const PACKED: usize = 4;
+
+/// Machines with vectors of so many 32-bit numbers have an instruction that brings bytes into any order; others may not.
+const WITH_SHUFFLES: usize = 8;
 
 /// The order of bytes that brings those of four points to the front that these bits name.
 static ORDERS: [[u8; 16]; 1 << PACKED] = orders();
@@ -39,6 +43,15 @@ const fn orders() -> [[u8; 16]; 1 << PACKED] {
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 pub(crate) fn pack_four<S: Simd>(simd: S, four: u16x8<S>, bits: u64, points: &mut [[u16; 2]; PACKED]) -> usize {
     let named = bits % (1 << PACKED);
+    if S::u32s::LEN < WITH_SHUFFLES {
+        let mut count = 0;
+        for (i, point) in four.to_array().as_chunks().0.iter().enumerate() {
+            // Stays only where the next one does not take its place.
+            points[count % PACKED] = *point;
+            count += usize::from(named >> i & 1 == 1);
+        }
+        return count;
+    }
     let order = u8x16::load_array_ref(simd, &ORDERS[usize::try_from(named).unwrap_or(0)]);
     let packed = four.bitcast::<u8x16<S>>().swizzle_dyn_within_blocks(order);
     packed.bitcast::<u16x8<S>>().store_slice(points.as_flattened_mut());

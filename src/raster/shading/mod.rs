@@ -18,6 +18,7 @@ mod gradient_means;
 pub(in crate::raster) mod interpolated;
 mod kernel;
 mod kind;
+mod near_planes;
 pub(in crate::raster) mod once;
 mod pattern;
 mod plane_means;

@@ -21,7 +21,8 @@ use fearless_simd::{Simd, dispatch};
 use crate::color::{PIXELS, SampleMean, SumBounds, sums_at};
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::PlacedParts;
-use crate::raster::shading::plane_means::{NearPlanes, PlaceSpreads, PlaneColors, TintedPlanes};
+use crate::raster::shading::near_planes::{NearPlanes, PlaceSpreads, TintedPlanes};
+use crate::raster::shading::plane_means::PlaneColors;
 use crate::simd;
 
 impl PlaneColors<'_> {

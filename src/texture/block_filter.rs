@@ -34,7 +34,7 @@ use super::fixed_point::{FRACTION_BITS, MASS};
 use super::sample_filter::{BLOCK, SampleVector, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, mean, round};
 use super::texel_coordinates::{Positions, columns_and_rows};
-use super::{MipLevel, sample_filter, shared_blocks};
+use super::{MipLevel, Wrap, sample_filter, shared_blocks};
 
 /// Stands for the offset of a block that reaches beyond the level.
 const BEYOND: i32 = -1;
@@ -50,35 +50,64 @@ struct Cells {
     weights: [[u64; BLOCK]; 4],
 }
 
-/// The latest large block that reaches beyond the level: beyond a border that the outermost texels go on from, most samples
-/// side by side read the same.
-struct Beyond<'p, S: Simd> {
-    plan: &'p Plan<'p>,
+/// The latest blocks of `SIDE x SIDE` texels that reach beyond a level: beyond a border that the outermost texels go on from, and in
+/// levels of few texels, many samples read the same.
+struct Beyond<'p, S: Simd, const SIDE: usize> {
+    wrap: Wrap,
     level: &'p MipLevel,
+    /// By their corners, in [`Self::KEPT`] columns and rows; nothing before the first one is read.
+    blocks: Vec<BeyondBlock<S>>,
+}
+
+/// One of them.
+#[derive(Clone, Copy)]
+struct BeyondBlock<S: Simd> {
     corner: [i32; 2],
     rows: [u8x16<S>; 4],
 }
 
-impl<'p, S: Simd> Beyond<'p, S> {
+impl<'p, S: Simd, const SIDE: usize> Beyond<'p, S, SIDE> {
+    /// Levels of so many columns and rows are kept whole.
+    const KEPT: i32 = 8;
+
     #[inline(always)]
-    fn none(simd: S, (plan, level): (&'p Plan<'p>, &'p MipLevel)) -> Self {
+    fn none(plan: &'p Plan<'p>, level: &GridLevel<'p>) -> Self {
         Self {
-            plan,
-            level,
-            // No block starts so far outside of a level.
-            corner: [i32::MIN; 2],
-            rows: [u8x16::splat(simd, 0); 4],
+            wrap: plan.wrap,
+            level: level.level,
+            blocks: Vec::new(),
         }
     }
 
     /// The rows of the block with this corner.
     #[inline(always)]
     fn rows(&mut self, simd: S, corner: [i32; 2]) -> [u8x16<S>; 4] {
-        if self.corner != corner {
-            self.corner = corner;
-            self.rows = rows_beyond::<S, LARGE>(simd, self.level, self.plan.wrap, corner);
+        let [column, row] = corner.map(|at| at.rem_euclid(Self::KEPT).cast_unsigned() as usize);
+        let at = row * Self::KEPT.cast_unsigned() as usize + column;
+        if let Some(block) = self.blocks.get(at).filter(|block| block.corner == corner) {
+            return block.rows;
         }
-        self.rows
+        self.read(simd, at, corner)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn read(&mut self, simd: S, at: usize, corner: [i32; 2]) -> [u8x16<S>; 4] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let none = BeyondBlock {
+                    // No block starts so far outside of a level.
+                    corner: [i32::MIN; 2],
+                    rows: [u8x16::splat(simd, 0); 4],
+                };
+                self.blocks
+                    .resize((Self::KEPT * Self::KEPT).cast_unsigned() as usize, none);
+                let rows = rows_beyond::<S, SIDE>(simd, self.level, self.wrap, corner);
+                self.blocks[at] = BeyondBlock { corner, rows };
+                rows
+            },
+        )
     }
 }
 
@@ -112,21 +141,22 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
     let count = plan.line.taps.count;
     let scale = per_tap(count);
     let mut cells = Cells::EMPTY;
-    let levels = [Some(&plan.finer), plan.coarser.as_ref()].map(|level| Some(OneTap::new(plan, weights, level?)));
+    let read = [Some(&plan.finer), plan.coarser.as_ref()];
+    let levels = read.map(|level| Some(OneTap::new(plan, weights, level?)));
+    let mut beyond = read.map(|level| Some(Beyond::<S, SIDE>::none(plan, level?)));
     let mut inside = [sample_filter::Cells::EMPTY; 2];
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
         if SIDE == SMALL && count == 1 && note_inside(simd, &levels, points, &mut inside) {
             sample_filter::weigh(simd, spread, plan, &inside, out);
             continue;
         }
-        if let (LARGE, 1, [Some(one), None]) = (SIDE, count, &levels) {
+        if let (LARGE, 1, [Some(one), None], [Some(beyond), _]) = (SIDE, count, &levels, &mut beyond) {
             cells.note_large(simd, one, points);
-            let mut beyond = Beyond::none(simd, (plan, one.tap.level.level));
             by_fours!(simd, out, |i| {
-                let first = cells.anywhere(simd, spread, &mut beyond, i);
-                let second = cells.anywhere(simd, spread, &mut beyond, i + 1);
-                let third = cells.anywhere(simd, spread, &mut beyond, i + 2);
-                let fourth = cells.anywhere(simd, spread, &mut beyond, i + 3);
+                let first = cells.sum(simd, spread, beyond, i);
+                let second = cells.sum(simd, spread, beyond, i + 1);
+                let third = cells.sum(simd, spread, beyond, i + 2);
+                let fourth = cells.sum(simd, spread, beyond, i + 3);
                 let low = clamped(simd, both_columns(first, second), 1);
                 round(simd, low, clamped(simd, both_columns(third, fourth), 1))
             });
@@ -134,7 +164,7 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
         }
         // Even and odd columns of each sample.
         let mut sums = [i32x8::splat(simd, 0); BLOCK];
-        for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
+        for (level, beyond) in read.into_iter().flatten().zip(beyond.iter_mut().flatten()) {
             let centres = centres(simd, plan, level, points);
             for number in 0..count {
                 let tap = Tap {
@@ -145,7 +175,7 @@ fn filter_blocks<S: Simd, C: FromColors, const SIDE: usize>(
                 };
                 cells.fill::<S, SIDE>(simd, tap, &centres, points.len());
                 for (i, sum) in sums.iter_mut().enumerate().take(points.len()) {
-                    *sum += cells.sum::<S, SIDE>(simd, spread, (plan, level.level), i);
+                    *sum += cells.sum(simd, spread, beyond, i);
                 }
             }
         }
@@ -315,27 +345,15 @@ impl Cells {
         &self,
         simd: S,
         spread: Spread<S>,
-        (plan, level): (&Plan<'_>, &MipLevel),
+        beyond: &mut Beyond<'_, S, SIDE>,
         i: usize,
     ) -> i32x8<S> {
         let i = i % BLOCK;
         if self.offsets[i] != BEYOND {
-            return self.inside::<S, SIDE>(simd, spread, level, i);
-        }
-        let corner = [self.corners[0][i], self.corners[1][i]];
-        let rows = rows_beyond::<S, SIDE>(simd, level, plan.wrap, corner);
-        self.weighed::<S, SIDE>(simd, spread, rows, i)
-    }
-
-    /// The same of large blocks of one level.
-    #[inline(always)]
-    fn anywhere<S: Simd>(&self, simd: S, spread: Spread<S>, beyond: &mut Beyond<'_, S>, i: usize) -> i32x8<S> {
-        let i = i % BLOCK;
-        if self.offsets[i] != BEYOND {
-            return self.inside::<S, LARGE>(simd, spread, beyond.level, i);
+            return self.inside::<S, SIDE>(simd, spread, beyond.level, i);
         }
         let rows = beyond.rows(simd, [self.corners[0][i], self.corners[1][i]]);
-        self.weighed::<S, LARGE>(simd, spread, rows, i)
+        self.weighed::<S, SIDE>(simd, spread, rows, i)
     }
 
     /// The same of a sample whose block lies inside the level.

@@ -10,7 +10,7 @@
 //! SVG 2, sections 14.2.2 and 14.2.3; the canvas element's `createRadialGradient` for circles that are not inside each other.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x8};
+use fearless_simd::{Simd, dispatch, f64x8, mask64x8};
 use glam::{DAffine2, DVec2};
 
 use crate::simd;
@@ -189,8 +189,6 @@ impl Circles {
     #[inline(always)]
     fn places<S: Simd>(&self, simd: S, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
         let none = f64x8::splat(simd, f64::NAN);
-        let zero = f64x8::splat(simd, 0.0);
-        let has_radius = |t: f64x8<S>| (t * self.growth + self.first).simd_ge(zero);
         let DAffine2 { matrix2, translation } = self.to_focus;
         let right = x * matrix2.x_axis.x + y * matrix2.y_axis.x + translation.x;
         let down = x * matrix2.x_axis.y + y * matrix2.y_axis.y + translation.y;
@@ -199,14 +197,21 @@ impl Circles {
         if self.touch {
             let t = c / (b + b);
             let finite = t.abs().simd_lt(f64x8::splat(simd, f64::INFINITY));
-            return (has_radius(t) & finite).select(t, none);
+            return (self.has_radius(simd, t) & finite).select(t, none);
         }
         // Where there is no solution, the root is no number, nor is what follows from it.
         let root = (b * b - c * self.a).sqrt();
         let (one, other) = ((b + root) * self.inverse, (b - root) * self.inverse);
         let larger = one.simd_gt(other).select(one, other);
         let smaller = one.simd_gt(other).select(other, one);
-        has_radius(larger).select(larger, has_radius(smaller).select(smaller, none))
+        let smaller_or_none = self.has_radius(simd, smaller).select(smaller, none);
+        self.has_radius(simd, larger).select(larger, smaller_or_none)
+    }
+
+    /// Whether the circles at these places on the ramp have one.
+    #[inline(always)]
+    fn has_radius<S: Simd>(&self, simd: S, t: f64x8<S>) -> mask64x8<S> {
+        (t * self.growth + self.first).simd_ge(f64x8::splat(simd, 0.0))
     }
 }
 

@@ -333,7 +333,8 @@ impl<S: Simd> Samples<S> {
         let rest = (self.reach * self.reach - below * below * down).max(f32x16::splat(simd, 0.0));
         let nearest = below * lean + self.middle[0];
         let half = (rest / growth).sqrt() + MARGIN;
-        [(nearest - half).ceil(), (nearest + half).floor()].map(|ends| ends.to_int::<i32x16<S>>().into())
+        let (left, right) = ((nearest - half).ceil(), (nearest + half).floor());
+        [left.to_int::<i32x16<S>>().into(), right.to_int::<i32x16<S>>().into()]
     }
 }
 

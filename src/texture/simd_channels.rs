@@ -96,13 +96,16 @@ pub(super) fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S
 /// Scales the sums of four samples to the bits that are stored, rounding to nearest; see `bilinear::mean`.
 #[inline(always)]
 pub(super) fn mean<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>, scale: f32) -> u16x16<S> {
+    scaled(simd, low, scale).relaxed_narrow(scaled(simd, high, scale))
+}
+
+/// The same of two samples.
+#[inline(always)]
+fn scaled<S: Simd>(simd: S, sums: i32x8<S>, scale: f32) -> u32x8<S> {
     /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.
     const WHOLE: f32 = 8_388_608.0;
-    let scaled = |sums: i32x8<S>| -> u32x8<S> {
-        let whole = f32x8::float_from(sums) * f32x8::splat(simd, scale) + f32x8::splat(simd, WHOLE);
-        whole.bitcast::<u32x8<S>>() & u32x8::splat(simd, 0xFFFF)
-    };
-    scaled(low).relaxed_narrow(scaled(high))
+    let whole = f32x8::float_from(sums) * f32x8::splat(simd, scale) + f32x8::splat(simd, WHOLE);
+    whole.bitcast::<u32x8<S>>() & u32x8::splat(simd, 0xFFFF)
 }
 
 impl FromColors for Premultiplied16 {

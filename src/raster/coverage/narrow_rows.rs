@@ -159,16 +159,7 @@ fn each<S: Simd, const SIDE: usize>(
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn ends<S: Simd, const SIDE: usize>(simd: S, rows: &[[Span; SIDE]; 2], columns: Span) -> [[u32; 4]; 2] {
     let vector = |numbers: [i32; 4]| i32x4::simd_from(simd, numbers);
-    // Starts and ends alternate: the least and the greatest of two sample rows each, then of all four.
-    let [upper, lower] = rows.each_ref().map(|spans| {
-        let [a, b, c, d] = four(spans);
-        let (first, second) = (
-            vector([a.start, a.end, b.start, b.end]),
-            vector([c.start, c.end, d.start, d.end]),
-        );
-        let wide = |vector: i32x4<S>| vector.bitcast::<u64x2<S>>();
-        (wide(first.min(second)), wide(first.max(second)))
-    });
+    let (upper, lower) = (least_and_most(simd, &rows[0]), least_and_most(simd, &rows[1]));
     let narrow = |vector: u64x2<S>| vector.bitcast::<i32x4<S>>();
     let least = narrow(upper.0.zip_low(lower.0)).min(narrow(upper.0.zip_high(lower.0)));
     let most = narrow(upper.1.zip_low(lower.1)).max(narrow(upper.1.zip_high(lower.1)));
@@ -184,6 +175,16 @@ fn ends<S: Simd, const SIDE: usize>(simd: S, rows: &[[Span; SIDE]; 2], columns: 
         pixels(starts.select(least, most), [0, Samples::<SIDE>::ALONG - 1]),
         pixels(starts.select(most, least), [Samples::<SIDE>::ALONG - 1, 0]),
     ]
+}
+
+/// The least and the greatest starts and ends of two sample rows each, which alternate; then, of both, those of all four.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn least_and_most<S: Simd, const SIDE: usize>(simd: S, spans: &[Span; SIDE]) -> (u64x2<S>, u64x2<S>) {
+    let [a, b, c, d] = four(spans);
+    let first = i32x4::simd_from(simd, [a.start, a.end, b.start, b.end]);
+    let second = i32x4::simd_from(simd, [c.start, c.end, d.start, d.end]);
+    (first.min(second).bitcast(), first.max(second).bitcast())
 }
 
 impl<const SIDE: usize> TileRow<'_, SIDE> {

@@ -3,8 +3,7 @@
 //! Most pixels lie in the middle of others that show the same surface. Where that is flat they need no samples: they are found, and put,
 //! by their surfaces, and colours are looked up only around the rest. Of what is to be shaded see `wide_shades`.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, u16x32};
+use fearless_simd::{Simd, dispatch};
 
 use crate::color::Premultiplied16;
 use crate::raster::frame::block::PixelBlock;
@@ -12,15 +11,13 @@ use crate::raster::paint::sample_colors::SampleColors;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::packed::{PER_WORD, lanes};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
+use crate::raster::paint::visibility::row_bits::{equal, equal_to_next, whole};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::wide::WideResolve;
 use crate::raster::paint::wide::flat::{FlatPixels, PixelBits, RowLikeness};
 use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 use crate::simd;
-
-/// Pixels that are compared at once.
-const AT_ONCE: usize = 32;
 
 impl VisibilityPainter<'_> {
     /// Resolves the finished tile: `colors` is one of the same rectangle, with a margin around the pixels of `block`.
@@ -121,46 +118,6 @@ fn find_flat<S: Simd>(simd: S, tile: &VisibilityBuffer, flat: &mut FlatPixels, m
         );
     }
     flat.finish(margin);
-}
-
-/// Which pixels of two rows show the same surface, the first in the lowest bit.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn equal<S: Simd>(simd: S, row: &[SurfaceId; ROW], other: &[SurfaceId; ROW]) -> u64 {
-    bits_equal(simd, row, other) | bits_equal(simd, &row[AT_ONCE..], &other[AT_ONCE..]) << AT_ONCE
-}
-
-/// Which pixels of a row show the surface of the next one.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn equal_to_next<S: Simd>(simd: S, row: &[SurfaceId; ROW]) -> u64 {
-    // The halves share a pixel, since the last one of the row has none next to it.
-    bits_equal(simd, row, &row[1..]) | bits_equal(simd, &row[AT_ONCE - 1..], &row[AT_ONCE..]) << (AT_ONCE - 1)
-}
-
-/// Which pixels of a row show one surface.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn whole<S: Simd>(simd: S, row: &[SurfaceId; ROW]) -> u64 {
-    const { assert!(SPLIT == TWO_SURFACES + 1, "nothing lies above these two") };
-    let mut bits = 0;
-    for (at, row) in row.as_chunks::<AT_ONCE>().0.iter().enumerate() {
-        let whole = u16x32::simd_from(simd, *row).simd_lt(u16x32::splat(simd, TWO_SURFACES));
-        bits |= whole.to_bitmask() << (AT_ONCE * at);
-    }
-    bits
-}
-
-/// Which of the first pixels of two rows show the same surface.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn bits_equal<S: Simd>(simd: S, row: &[SurfaceId], other: &[SurfaceId]) -> u64 {
-    let (Some(row), Some(other)) = (row.first_chunk::<AT_ONCE>(), other.first_chunk::<AT_ONCE>()) else {
-        return 0;
-    };
-    u16x32::simd_from(simd, *row)
-        .simd_eq(u16x32::simd_from(simd, *other))
-        .to_bitmask()
 }
 
 /// Puts the colours of the samples of some pixels of each row.
@@ -328,28 +285,5 @@ mod tests {
         })
         .budget_ms(2000);
         assert!(tried > 20, "{tried} tiles");
-    }
-
-    #[test]
-    fn rows_are_compared_as_pixel_by_pixel() {
-        arbtest::arbtest(|u| {
-            let mut row = || -> arbtest::arbitrary::Result<[SurfaceId; ROW]> {
-                let mut row = [0; ROW];
-                for surface in &mut row {
-                    *surface = *u.choose(&[3, 3, 3, 4, TWO_SURFACES, SPLIT])?;
-                }
-                Ok(row)
-            };
-            let (row, other) = (row()?, row()?);
-            let bits =
-                |is_set: &dyn Fn(usize) -> bool| (0..ROW).fold(0_u64, |bits, x| bits | u64::from(is_set(x)) << x);
-            dispatch!(simd::level(), simd => {
-                assert_eq!(equal(simd, &row, &other), bits(&|x| row[x] == other[x]));
-                assert_eq!(equal_to_next(simd, &row), bits(&|x| row.get(x + 1) == Some(&row[x])));
-                assert_eq!(whole(simd, &row), bits(&|x| row[x] < TWO_SURFACES));
-            });
-            Ok(())
-        })
-        .budget_ms(200);
     }
 }

@@ -16,12 +16,12 @@ mod paint;
 
 use std::ops::Range;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, u16x32};
+use fearless_simd::Simd;
 
 pub(crate) use change::Composer;
 
 use crate::raster::paint::visibility::packed::{PER_WORD, lanes, of_two, splat};
+use crate::raster::paint::visibility::row_bits::equal_to_next;
 use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
 use crate::raster::span::{Span, SpanRect};
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
@@ -221,10 +221,10 @@ impl VisibilityBuffer {
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn run_ends<S: Simd>(&self, simd: S, ends: &mut Vec<u64>) {
         ends.clear();
-        ends.extend(self.whole.iter().map(
-            #[inline(always)]
-            |row| run_ends(simd, row),
-        ));
+        // No adapter, which compilers may leave a function of its own, without vector instructions.
+        for row in &self.whole {
+            ends.push(!equal_to_next(simd, row) & u64::MAX >> 1);
+        }
     }
 
     /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side; `ends` as
@@ -336,18 +336,6 @@ impl VisibilityBuffer {
     }
 }
 
-/// The surfaces of a row that differ from the next one, a bit for each.
-#[inline(always)]
-fn run_ends<S: Simd>(simd: S, row: &[SurfaceId; ROW]) -> u64 {
-    const HALF: usize = ROW / 2;
-    const LOW: u64 = u64::MAX >> HALF;
-    let surfaces = |from: usize| u16x32::from_slice(simd, &row[from..from + HALF]);
-    let equal = |from: usize| surfaces(from).simd_eq(surfaces(from + 1)).to_bitmask();
-    // The last surface has no next one; that before the second half is looked at twice.
-    let of_second = HALF - 1;
-    (!equal(0) & LOW) | (!equal(of_second) & LOW) << of_second
-}
-
 /// How many surfaces at the beginning of `line` are `surface`.
 #[inline]
 fn run_length(line: &[SurfaceId], surface: SurfaceId) -> usize {
@@ -374,7 +362,6 @@ mod tests {
     use std::cell::Cell;
 
     use arbtest::arbitrary::{Result, Unstructured};
-    use fearless_simd::dispatch;
 
     use super::*;
     use crate::raster::coverage::covered::Covered;
@@ -512,30 +499,6 @@ mod tests {
             }
         }
         Ok(())
-    }
-
-    #[test]
-    fn runs_end_where_surfaces_change_on_every_level() {
-        arbtest::arbtest(|u| {
-            let mut row = [0; ROW];
-            let mut surface = 0;
-            for shown in &mut row {
-                if u.ratio(1, 5)? {
-                    surface = *u.choose(&[0, 1, 0x8000, TWO_SURFACES, SPLIT])?;
-                }
-                *shown = surface;
-            }
-            let mut expected = 0;
-            for (bit, two) in row.windows(2).enumerate() {
-                expected |= u64::from(two[0] != two[1]) << bit;
-            }
-            for (name, level) in crate::simd::tested() {
-                let found = dispatch!(level, simd => run_ends(simd, &row));
-                assert_eq!(found, expected, "{name}: {row:?}");
-            }
-            Ok(())
-        })
-        .budget_ms(200);
     }
 
     #[test]

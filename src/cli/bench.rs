@@ -11,6 +11,7 @@ use super::options::bench::BenchOptions;
 use super::picture::{Picture, on_threads, spec};
 use super::progress;
 use super::rounded::rounded;
+use crate::inspect::counted;
 use crate::plain;
 use crate::render::{FrameStats, median, milliseconds};
 
@@ -127,16 +128,16 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
 impl Report {
     fn text(&self) -> String {
         format!(
-            "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles and polygons\n\
+            "{}\n{} x {} pixels, {} per pixel, {}, {}, {} triangles and polygons\n\
              median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms\n\
              resolve    {:9.3} ms\npresent         none\n\
              blocks covered whole {}, blocks split {}, samples shaded {}",
             plain::line(&self.scene),
             self.width,
             self.height,
-            self.sample_rate,
-            self.threads,
-            self.frames,
+            counted(self.sample_rate as usize, "sample"),
+            counted(self.threads, "thread"),
+            counted(self.frames as usize, "frame"),
             self.triangles,
             self.median_ms,
             self.min_ms,

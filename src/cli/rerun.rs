@@ -11,7 +11,6 @@ use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
 use super::{board, diff, lesson, sheet, spectrum};
 use crate::compare;
 use crate::figure::{Destination, Guard, Named, Record, save_picture};
-use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
@@ -265,7 +264,12 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
     let different = compare::count_different(&bytes, &again.frame).map_err(|error| unreadable(&error))?;
     if different == 0 {
         let although = change.map_or(String::new(), |change| format!(", although {change}"));
-        return print(&format!("{name}: the same, all {}{although}", counted(all, "pixel")));
+        let all = if all == 1 {
+            "the only pixel".to_owned()
+        } else {
+            format!("all {all} pixels")
+        };
+        return print(&format!("{name}: the same, {all}{although}"));
     }
     print(&format!("{name}: differs in {different} of {all} pixels{why}"))?;
     Err(Failure::Different)

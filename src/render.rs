@@ -117,19 +117,13 @@ impl RenderSettings {
     /// values they are averaged are the picture's own: what is then left of a difference is sampling. Only [`Rules::Float`]
     /// gives way to the standard rules: no number of samples closes its pinholes.
     ///
-    /// No two samples of a pixel share a column or a row: on a grid of 256, upright and level edges would have 17 shades.
-    /// Filters wider than a pixel sum columns of several pixels by weights of their own, and stay on the grid, where they
-    /// are separable.
+    /// No two samples of a pixel share a column or a row: on a grid of 256, upright and level edges would have 17 shades, and lines
+    /// thinner than a sixteenth of a pixel could be missed.
     #[must_use]
     pub fn truth(self) -> Self {
-        let pattern = if self.filter().is_plain() {
-            SamplePattern::Hammersley
-        } else {
-            SamplePattern::Grid
-        };
         Self {
             sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(self.sample_rate),
-            pattern,
+            pattern: SamplePattern::Hammersley,
             shading: ShadingRate::Sample,
             coverage: PixelCoverage::Sampled,
             level_sampling: LevelSampling::Zero,

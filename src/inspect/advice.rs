@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::explanation::Question;
-use super::model::{Causes, Cure, Explanation, Missed, Setting, Truth};
+use super::model::{Causes, Cure, Explanation, Setting, Truth};
 use crate::post::PostProcess;
 use crate::raster::{PixelCoverage, SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
@@ -24,19 +24,20 @@ const ENOUGH: f64 = 0.75;
 const WORTH_A_WORD: f64 = 0.25;
 /// Texels of a texture above which no sums and ripmaps are made of it for the sake of advice: they would take as long as frames.
 const MOST_TABLED: u64 = 1 << 20;
-/// Primitives between the samples that are left out one by one at most.
-const MOST_TRIED: usize = 8;
+/// Samples per pixel that are many.
+const MANY: u32 = 16;
 /// Settings that are told at most.
 const MOST_CURES: usize = 3;
 
 impl Explanation {
     /// Why a pixel has its colour, how far it is from the truth and what brings it nearer; `None` outside the picture.
     pub fn advised(question: &Question<'_>) -> Option<Self> {
-        let explanation = Self::new(question)?;
-        Some(Self {
-            truth: explanation.find_truth(question),
-            ..explanation
-        })
+        let mut explanation = Self::new(question)?;
+        explanation.truth = explanation.find_truth(question);
+        if explanation.truth.is_some() {
+            explanation.find_shown(question);
+        }
+        Some(explanation)
     }
 
     /// `None` where there is too much to draw.
@@ -50,79 +51,48 @@ impl Explanation {
             let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
             Some([r, g, b, a])
         };
-        let true_color = draw(&RenderSettings {
-            resolve: settings.resolve,
+        let true_color = draw(&settings.truth())?;
+        let other_color = draw(&RenderSettings {
+            pattern: SamplePattern::Sobol,
             ..settings.truth()
         })?;
-        let distance = distance(self.color, true_color);
         let mut truth = Truth {
             color: true_color,
-            distance,
+            distance: distance(self.color, true_color),
+            unsure: distance(other_color, true_color),
             cures: Vec::new(),
             causes: Causes::default(),
         };
         // Nothing can bring it nearer by more than it is away.
-        if distance > LEAST {
+        if !truth.is_reached() {
             let textures = self.paints.iter().filter_map(|paint| paint.texture.as_ref());
             let texels = textures.map(|texture| u64::from(texture.size[0]) * u64::from(texture.size[1]));
             truth.cures = candidates(settings, texels.max())
                 .into_iter()
+                .filter(|(setting, _)| *setting != Setting::PixelSampling || !self.is_luck_between_texels())
                 .filter_map(|(setting, values)| truth.cure(setting, values, draw))
                 .collect();
+            if truth.cures.is_empty() {
+                let coverage = truth.cure(Setting::Coverage, other_coverage(settings), draw);
+                truth.cures.extend(coverage);
+            }
             truth.cures.sort_by(|a, b| b.nearer.total_cmp(&a.nearer));
             let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
             truth.cures.retain(|cure| cure.nearer >= best * cure.worth_a_word());
             truth.cures.truncate(MOST_CURES);
             for cure in &mut truth.cures {
                 let is_other = cure.setting == Setting::Pattern && is_own(settings.pattern);
-                cure.samples = is_other.then_some(settings.sample_rate.samples());
+                let is_more = cure.setting == Setting::Coverage && sampled_at(settings) != settings.sample_rate;
+                cure.samples =
+                    (is_other || is_more && settings.coverage.is_exact()).then_some(sampled_at(settings).samples());
                 let is_of_course = cure.setting == Setting::Rules && question.subject.scene.dialect == Dialect::Course;
                 cure.dialect = is_of_course.then_some(Dialect::Course.name());
             }
             if truth.cures.iter().any(|cure| cure.setting == Setting::SampleRate) {
-                truth.causes = self.causes(&nearby, &settings.truth(), &truth);
+                truth.causes = self.causes(&nearby, settings, &truth);
             }
         }
         Some(truth)
-    }
-
-    /// What the distance from the truth comes of, each cause tried alone: the truth without what the samples miss, and with
-    /// one place of each texture for the whole pixel. `settings` are the truth's.
-    fn causes(&self, nearby: &Nearby<'_>, settings: &RenderSettings, truth: &Truth) -> Causes {
-        let color = |nearby: &Nearby<'_>, settings: &RenderSettings| {
-            let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
-            Some([r, g, b, a])
-        };
-        let without = |left_out: &[u32]| color(&nearby.without(left_out), settings);
-        let by = |left_out: Vec<u32>| {
-            let without = (!left_out.is_empty()).then(|| without(&left_out));
-            let left = without.flatten().map(|without| distance(self.color, without));
-            left.map_or(0.0, |left| truth.distance - left)
-        };
-        let unseen = if self.missed.len() <= MOST_TRIED {
-            let missed = self.missed.iter().map(|missed| missed.primitive);
-            let changes = |primitive: &u32| without(&[*primitive]).map(|without| distance(without, truth.color));
-            missed
-                .filter(|primitive| changes(primitive).is_some_and(|changes| changes <= LEAST))
-                .collect()
-        } else {
-            Vec::new()
-        };
-        let may_be_seen = |missed: &&Missed| self.may_be_seen(missed) && !unseen.contains(&missed.primitive);
-        let missed = || self.missed.iter().filter(may_be_seen);
-        let once = RenderSettings {
-            shading: ShadingRate::Centre,
-            ..*settings
-        };
-        Causes {
-            thin: by(missed()
-                .filter(|missed| self.is_thin(missed))
-                .map(|missed| missed.primitive)
-                .collect()),
-            missed: by(missed().map(|missed| missed.primitive).collect()),
-            textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
-            unseen,
-        }
     }
 }
 
@@ -151,6 +121,16 @@ impl Cure {
 }
 
 impl Truth {
+    /// Whether the pixel is as near to it as can be told.
+    pub(super) fn is_reached(&self) -> bool {
+        self.distance <= self.least()
+    }
+
+    /// A setting has to bring a pixel nearer by more levels than this.
+    pub(super) fn least(&self) -> f64 {
+        LEAST.max(self.unsure)
+    }
+
     /// The first of a setting's values that brings nearly as much as the best one.
     fn cure(
         &self,
@@ -161,7 +141,7 @@ impl Truth {
         let tried = values.into_iter().filter_map(|(value, settings)| {
             let color = draw(&settings)?;
             let nearer = self.distance - distance(color, self.color);
-            (nearer > LEAST).then_some(Cure {
+            (nearer > self.least()).then_some(Cure {
                 setting,
                 value,
                 color,
@@ -177,7 +157,7 @@ impl Truth {
 }
 
 /// How far two colours are apart: the largest difference of a channel, in levels, when both are premultiplied.
-fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
+pub(super) fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     let premultiplied = |[r, g, b, a]: [u8; 4]| {
         let alpha = f64::from(a) / 255.0;
         [r, g, b]
@@ -301,16 +281,35 @@ fn post_processes(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
 /// Exact areas where there are many samples already or cannot be more, and samples where areas are covered: a few samples more
 /// are the first thing to try.
 fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    const MANY: u32 = 16;
-    let coverage = match own.coverage {
-        PixelCoverage::Exact => PixelCoverage::Sampled,
-        PixelCoverage::Sampled => PixelCoverage::Exact,
+    if own.coverage.is_exact() || own.sample_rate.samples() >= MANY || is_own(own.pattern) {
+        other_coverage(own)
+    } else {
+        Vec::new()
+    }
+}
+
+/// Samples in the place of areas, or the other way.
+fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let (coverage, sample_rate) = match own.coverage {
+        PixelCoverage::Exact => (PixelCoverage::Sampled, sampled_at(own)),
+        PixelCoverage::Sampled => (PixelCoverage::Exact, own.sample_rate),
     };
-    let is_sensible = own.coverage.is_exact() || own.sample_rate.samples() >= MANY || is_own(own.pattern);
-    is_sensible
-        .then(|| (coverage.name().to_owned(), RenderSettings { coverage, ..*own }))
-        .into_iter()
-        .collect()
+    let settings = RenderSettings {
+        sample_rate,
+        coverage,
+        ..*own
+    };
+    vec![(coverage.name().to_owned(), settings)]
+}
+
+/// At which rate samples are tried where areas are covered, which hides the rate in use: few samples are no match for areas.
+fn sampled_at(own: &RenderSettings) -> SampleRate {
+    let many = SampleRate::new(MANY).unwrap_or(own.sample_rate);
+    if is_own(own.pattern) {
+        own.sample_rate
+    } else {
+        own.sample_rate.max(many)
+    }
 }
 
 /// Levels, and areas of textures.

@@ -5,8 +5,10 @@
 
 use std::collections::BTreeSet;
 
-use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
-use super::numbers::{number, percent, significant};
+use super::model::{
+    Causes, Cure, Explanation, Interpolated, Missed, MissedCause, Paint, Setting, Texture, Truth, View,
+};
+use super::numbers::{about, number, percent, significant};
 use crate::color::ResolveSpace;
 use crate::raster::{PixelCoverage, ShadingRate};
 use crate::texture::PyramidFilter;
@@ -19,8 +21,8 @@ const WRONG: f64 = 0.2;
 const LEAVES_OUT: f64 = 2.0;
 /// The part of what a setting brings that a reason has to account for.
 const MOSTLY: f64 = 0.5;
-/// A colour of less alpha than this, in levels, lets what is below shine through.
-const OPAQUE: f64 = 254.99;
+/// Levels by which two truths may differ before anybody is told.
+const SURE: f64 = 3.0;
 
 impl Explanation {
     /// How far the pixel is from the truth, then everything that would bring it nearer; empty where nobody asked.
@@ -52,8 +54,8 @@ impl Explanation {
         match cure.setting {
             Setting::SampleRate => self
                 .missed_parts(cure)
-                .or_else(|| self.thin_topmost())
-                .or_else(|| self.wrong_coverage())
+                .or_else(|| self.thin_topmost(cure))
+                .or_else(|| self.wrong_coverage(cure))
                 .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture, cure))),
             Setting::LevelSampling => texture.and_then(|(paint, texture)| {
                 let blurred = || cure.weighs_area().then(|| texture.blurred_across()).flatten();
@@ -98,7 +100,7 @@ impl Explanation {
     }
 
     /// The topmost primitive that is seen.
-    fn topmost(&self) -> Option<&Paint> {
+    pub(super) fn topmost(&self) -> Option<&Paint> {
         self.paints.iter().rev().find(|paint| paint.is_seen())
     }
 
@@ -107,19 +109,15 @@ impl Explanation {
         1.0 / (self.samples.len().max(1) as f64).sqrt()
     }
 
-    /// Whether a primitive that no sample meets would be seen if one did.
-    pub(super) fn may_be_seen(&self, missed: &Missed) -> bool {
-        let hides = |paint: &Paint| {
-            paint.primitive > missed.primitive
-                && paint.fragments.len() == self.samples.len()
-                && paint.fragments.iter().all(|fragment| fragment.color[3] >= OPAQUE)
-        };
-        !self.paints.iter().any(hides)
-    }
-
     /// Whether a primitive passes between the samples.
     pub(super) fn is_thin(&self, missed: &Missed) -> bool {
-        missed.width < self.step()
+        self.is_less_than_apart(missed.width)
+    }
+
+    /// Whether so many pixels are less than what lies between samples, by more than snapping takes from a width.
+    fn is_less_than_apart(&self, width: f64) -> bool {
+        const SNAPPED: f64 = 0.99;
+        width < self.step() * SNAPPED
     }
 
     /// What the samples miss, if most of what a setting brings comes of it.
@@ -128,28 +126,31 @@ impl Explanation {
             // Neighbours' samples decide, too: the pixel may show too much of it as well as too little.
             return None;
         }
-        let causes = &self.truth.as_ref()?.causes;
-        let may_be_seen = |missed: &&Missed| self.may_be_seen(missed) && !causes.unseen.contains(&missed.primitive);
-        let seen = || self.missed.iter().filter(may_be_seen);
-        let area_of = |area: f64| percent(area.min(1.0));
-        if causes.thin >= cure.nearer * MOSTLY {
-            let thin = seen().filter(|missed| self.is_thin(missed));
-            let area = area_of(thin.map(|missed| missed.area).sum());
+        let Causes { thin, missed, .. } = self.truth.as_ref()?.causes;
+        let is_reason = |cause: MissedCause| cause.part > 0.0 && cause.levels >= cure.nearer * MOSTLY;
+        if is_reason(thin) {
+            let part = thin.part_words();
             return Some(format!(
-                "What is thin passes between the samples here, {area} of the pixel: it breaks up."
+                "What is thin passes between the samples here, {part} of the pixel: it breaks up."
             ));
         }
-        (causes.missed >= cure.nearer * MOSTLY).then(|| {
-            let area = area_of(seen().map(|missed| missed.area).sum());
-            format!("No sample meets some of what is here, {area} of the pixel.")
+        is_reason(missed).then(|| {
+            let part = missed.part_words();
+            format!("No sample meets some of what is here, {part} of the pixel.")
         })
     }
 
+    /// Whether most of what a setting brings comes of the topmost primitive.
+    fn is_of_topmost(&self, cure: &Cure) -> bool {
+        let causes = self.truth.as_ref().map(|truth| &truth.causes);
+        causes.is_some_and(|causes| causes.topmost >= cure.nearer * MOSTLY)
+    }
+
     /// What is seen here, and is missed where it passes between the samples.
-    fn thin_topmost(&self) -> Option<String> {
+    fn thin_topmost(&self, cure: &Cure) -> Option<String> {
         let paint = self.topmost().filter(|paint| !paint.is_crisp())?;
-        let width = paint.width.filter(|width| *width < self.step())?;
-        self.resolve.around.is_none().then(|| {
+        let width = paint.width.filter(|width| self.is_less_than_apart(*width))?;
+        (self.resolve.around.is_none() && self.is_of_topmost(cure)).then(|| {
             format!(
                 "The {} is {} px wide here, less than samples are apart ({} px): it breaks up where it passes between them.",
                 paint.name(),
@@ -159,10 +160,10 @@ impl Explanation {
         })
     }
 
-    fn wrong_coverage(&self) -> Option<String> {
+    fn wrong_coverage(&self, cure: &Cure) -> Option<String> {
         let paint = self.topmost()?;
         let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
-        ((part - area).abs() > WRONG && self.explains(paint, area)).then(|| {
+        ((part - area).abs() > WRONG && self.explains(paint, area) && self.is_of_topmost(cure)).then(|| {
             format!(
                 "By its samples the {} covers {} of the pixel; by area, {}.",
                 paint.name(),
@@ -206,13 +207,24 @@ impl Explanation {
         covered.len() as f64 / self.samples.len().max(1) as f64
     }
 
+    /// Whether the samples of the topmost texture lie so far apart that it is luck which texels they read, whatever is read around
+    /// each.
+    pub(super) fn is_luck_between_texels(&self) -> bool {
+        let texture = self.topmost().and_then(|paint| paint.texture.as_ref());
+        texture.is_some_and(|texture| texture.reads_base_once() && self.texels_apart(texture) > LEAVES_OUT)
+    }
+
+    /// How many texels the samples of a texture lie apart.
+    fn texels_apart(&self, texture: &Texture) -> f64 {
+        texture.major * if texture.step == "sample" { 1.0 } else { self.step() }
+    }
+
     fn texels_between(&self, texture: &Texture, cure: &Cure) -> Option<String> {
         if self.topmost()?.shaded_at.is_some() {
             // One place is read, however many samples there are.
             return None;
         }
-        let step = if texture.step == "sample" { 1.0 } else { self.step() };
-        let apart = texture.major * step;
+        let apart = self.texels_apart(texture);
         let causes = self.truth.as_ref().map(|truth| &truth.causes);
         let by_texture = causes.is_none_or(|causes| causes.textures >= cure.nearer * MOSTLY);
         (texture.reads_base_once() && apart > LEAVES_OUT && by_texture).then(|| {
@@ -252,6 +264,8 @@ impl Explanation {
         (is_whole && leaves_out && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
             let readers = if self.exact || paint.shaded_at.is_some() {
                 "the one place that is shaded reads"
+            } else if self.samples.len() == 1 {
+                "its only sample reads"
             } else {
                 "its samples read"
             };
@@ -271,17 +285,36 @@ impl Explanation {
 impl Truth {
     /// How far the pixel is from it, in one sentence.
     fn verdict(&self) -> String {
-        let levels = levels(self.distance);
-        if self.distance == 0.0 {
-            "This pixel is what it should be: 256 samples give the same colour.".to_owned()
-        } else if self.distance <= 1.0 {
+        let is_sure = self.unsure <= SURE;
+        let far = levels(self.distance);
+        let verdict = if self.distance == 0.0 && is_sure {
+            "This pixel is what it should be: it has the colour of the truth (256 samples).".to_owned()
+        } else if self.distance == 0.0 {
+            "This pixel has the colour of the truth (256 samples).".to_owned()
+        } else if self.distance <= 1.0 && is_sure {
             "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
         } else if self.cures.is_empty() {
             format!(
-                "This pixel is within {levels} of the truth (256 samples); no setting that was tried brings it nearer by more than 1 level by itself."
+                "This pixel is within {far} of the truth (256 samples); no setting that was tried brings it nearer by more than {} by itself.",
+                levels(self.least())
             )
         } else {
-            format!("This pixel is {levels} from the truth (256 samples).")
+            format!("This pixel is {far} from the truth (256 samples).")
+        };
+        if is_sure {
+            return verdict;
+        }
+        let apart = levels(self.unsure);
+        format!("{verdict} So many are too few to be sure here: as many at other places give a colour {apart} away.")
+    }
+}
+
+impl MissedCause {
+    /// The part of the pixel in words, as exactly as it is known.
+    fn part_words(&self) -> String {
+        match self.area {
+            Some(area) => percent(area),
+            None => about(self.part),
         }
     }
 }
@@ -334,7 +367,10 @@ impl Cure {
             }
             Setting::ShadingRate => format!("Shading per {value}"),
             Setting::Coverage if value == PixelCoverage::Exact.name() => "Coverage by exact areas".to_owned(),
-            Setting::Coverage => "Coverage by samples".to_owned(),
+            Setting::Coverage => match self.samples {
+                Some(samples) => format!("Coverage by {samples} samples"),
+                None => "Coverage by samples".to_owned(),
+            },
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
             Setting::Pattern => {

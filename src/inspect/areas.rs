@@ -1,6 +1,6 @@
 //! Pixels that have areas and no samples: what shows in them, and where neighbours let the background through.
 
-use super::model::{Conflation, Explanation, Paint};
+use super::model::{Conflation, Explanation, Paint, Truth};
 use super::numbers::{counted, percent};
 use crate::render::Explainer;
 
@@ -28,8 +28,10 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
         match paint.covered {
             Some(covered) if covered > 1.0 - NOTHING && paint.alpha() >= OPAQUE => parts.clear(),
             Some(covered) if covered > NOTHING && covered < 1.0 - NOTHING && !paint.in_mask => parts.push(number),
-            // What lies on different layers meets nobody.
+            // What lies on different layers meets nobody; and what lies between neighbours, or above both, takes its part of what
+            // shines through.
             None if paint.shape.is_layer_mark() => parts.clear(),
+            Some(covered) if covered > NOTHING && !paint.in_mask => parts.clear(),
             _ => {}
         }
     }
@@ -122,6 +124,10 @@ impl Explanation {
             through,
             by_opacity,
         } = self.conflation.as_ref()?;
+        if self.truth.as_ref().is_some_and(Truth::is_reached) {
+            // What shines through has the colour that it should.
+            return None;
+        }
         let known = || {
             paints
                 .iter()

@@ -152,6 +152,7 @@ impl Question<'_> {
                 stroke: polygon.is_some_and(Polygon::is_stroke),
                 crisp: polygon.is_some_and(Polygon::is_crisp),
                 area,
+                shown: None,
                 width: sources.explainer.width(primitive, around)?,
             })
         };
@@ -161,6 +162,7 @@ impl Question<'_> {
     fn paint(&self, op: &PaintedCommand, piece: Option<Piece>, seen: &[bool], sources: Sources<'_>) -> Paint {
         let source = self.source(op.source, sources.quotes);
         let Shaped { shape, views, texture } = self.shape(op, source.is_none(), piece);
+        let is_cut = matches!(shape, Shape::Triangle { .. }) && self.polygon(op.source).is_some();
         Paint {
             area: None,
             shape,
@@ -168,6 +170,7 @@ impl Question<'_> {
             primitive: op.source,
             layers: op.layers,
             in_mask: false,
+            is_cut,
             fragments: op
                 .fragments
                 .iter()

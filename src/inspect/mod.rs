@@ -11,6 +11,7 @@ mod advice_words;
 mod area_use;
 mod areas;
 mod around_words;
+mod causes;
 mod contributions;
 mod depth;
 mod differences;

@@ -126,6 +126,8 @@ pub struct Truth {
     pub color: [u8; 4],
     /// How far the pixel is from it: the largest difference of a channel in levels, of premultiplied colours.
     pub distance: f64,
+    /// How far from it as many samples of another pattern are: what is nearer than that is not told from the truth.
+    pub unsure: f64,
     /// The settings that bring it nearer, the best first; each alone.
     pub cures: Vec<Cure>,
     /// What the distance comes of.
@@ -137,13 +139,24 @@ pub struct Truth {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Causes {
     /// Primitives that pass between the samples and are thinner than these are apart.
-    pub thin: f64,
+    pub thin: MissedCause,
     /// All primitives that cover a part of the pixel and none of its samples.
-    pub missed: f64,
+    pub missed: MissedCause,
+    /// The topmost primitive that is seen.
+    pub topmost: f64,
     /// Textures that differ within the pixel.
     pub textures: f64,
-    /// Of what the samples miss, the primitives that make no difference that could be seen, by their indices.
-    pub unseen: Vec<u32>,
+}
+
+/// What the samples miss.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MissedCause {
+    /// By how many levels the pixel is nearer to what else there is.
+    pub levels: f64,
+    /// The part of the truth's samples that show it, `0.0..=1.0`: what lies above, clip paths and masks take their part away.
+    pub part: f64,
+    /// The area of it all, where it is that part.
+    pub area: Option<f64>,
 }
 
 /// A setting that brings a pixel nearer to the truth.
@@ -258,6 +271,9 @@ pub struct Paint {
     /// Whether it is part of a clip path or mask, and so not seen itself.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub in_mask: bool,
+    /// Whether it is one of the triangles that an outline was cut into: [`Paint::area`] is that of all of them.
+    #[serde(skip)]
+    pub is_cut: bool,
     /// The samples that it painted.
     pub fragments: Vec<Fragment>,
     /// What every sample of the pixel sees of it, in the order of samples; empty for what has neither edges nor windings.
@@ -632,6 +648,8 @@ pub struct Missed {
     pub crisp: bool,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: f64,
+    /// The part of the truth's samples that show it: not what is hidden, clipped or masked. `None` where there is no truth.
+    pub shown: Option<f64>,
     /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
     pub width: f64,
 }

@@ -56,6 +56,24 @@ pub(super) fn weight(value: f64) -> String {
     unsigned_zero(&format!("{value:.4}"))
 }
 
+/// Some of the samples of a pixel that has so many: `2 of 4 samples: 1, 3`.
+pub(super) fn which(samples: &[usize], all: usize) -> String {
+    if samples.len() == 1 && all == 1 {
+        return "the only sample".to_owned();
+    }
+    format!("{} of {}: {}", samples.len(), counted(all, "sample"), runs(samples))
+}
+
+/// A part that was counted by samples: `about 4 %`.
+pub(super) fn about(part: f64) -> String {
+    let percents = (part * 100.0).round();
+    if percents < 1.0 {
+        "less than 1 %".to_owned()
+    } else {
+        format!("about {percents} %")
+    }
+}
+
 /// So many of something: `1 level`, `2 levels`. The plural of `one` ends in s.
 pub fn counted(count: usize, one: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
@@ -139,6 +157,12 @@ mod tests {
         assert_eq!([counted(1, "place"), counted(2, "place")], ["1 place", "2 places"]);
         assert_eq!(percent(0.375), "37.5 %", "a part");
         assert_eq!(percent(1e-7), "under 0.01 %", "a small part");
+    }
+
+    #[test]
+    fn samples_are_told_out_of_all() {
+        assert_eq!(which(&[0, 2], 4), "2 of 4 samples: 1, 3", "some");
+        assert_eq!(which(&[0], 1), "the only sample", "one");
     }
 
     #[test]

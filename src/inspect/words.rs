@@ -2,7 +2,7 @@
 //! these lines.
 
 use super::model::{Explanation, Fragment, Paint, Shape, Source, View};
-use super::numbers::{hex, number, percent, runs, weight};
+use super::numbers::{about, hex, number, percent, runs, weight, which};
 use super::part_words::{Composited, color};
 use crate::color::ResolveSpace;
 
@@ -204,8 +204,13 @@ impl Explanation {
                 "covers {area} of the pixel's area, and {whole} of it as drawn: shape-rendering asks for one sample per pixel"
             ));
         } else if let Some(area) = found.area {
+            let whose = if found.is_cut {
+                "with the other triangles of its outline "
+            } else {
+                ""
+            };
             lines.push(format!(
-                "covers {} of the pixel's area, {} of its samples",
+                "{whose}covers {} of the pixel's area, {} of its samples",
                 percent(area),
                 percent(self.covered_part(found))
             ));
@@ -261,10 +266,7 @@ impl Explanation {
                 "one pixel wide at every zoom: paints whole pixels, whatever the samples".to_owned()
             }
             Shape::Triangle { .. } | Shape::Polygon { .. } if found.in_mask => {
-                format!(
-                    "part of a clip path or mask: lies on {count} of {all} samples: {}",
-                    runs(&found.samples())
-                )
+                format!("part of a clip path or mask: lies on {}", which(&found.samples(), all))
             }
             Shape::Triangle { .. } | Shape::Polygon { .. } => {
                 let lost = |is_so: fn(Unseen) -> bool, what: &str| {
@@ -284,11 +286,7 @@ impl Explanation {
                     lost(|why| why == Unseen::Transparent, "transparent"),
                     lost(|why| why == Unseen::Hidden, "hidden"),
                 ];
-                format!(
-                    "paints {count} of {all} samples: {}{}",
-                    runs(&found.samples()),
-                    lost.concat()
-                )
+                format!("paints {}{}", which(&found.samples(), all), lost.concat())
             }
         }
     }
@@ -412,9 +410,16 @@ impl Explanation {
 
     /// What covers parts of the pixel, and none of its samples.
     pub fn missed_lines(&self) -> Vec<String> {
+        /// The part of an area that has to be left for nothing to be said of the rest.
+        const MOSTLY: f64 = 0.75;
         let line = |missed: &super::model::Missed| {
             let Source { file, line, column, .. } = &missed.source;
             let area = percent(missed.area);
+            let shown = missed.shown.map_or(String::new(), |shown| match shown {
+                0.0 => "; nothing of it shows there".to_owned(),
+                shown if shown < missed.area * MOSTLY => format!("; {} of the pixel shows it", about(shown)),
+                _ => String::new(),
+            });
             let stroke = if missed.stroke { "stroke of " } else { "" };
             let name = missed.source.name();
             let what = if missed.crisp {
@@ -422,7 +427,7 @@ impl Explanation {
             } else {
                 "no sample"
             };
-            format!("{stroke}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}")
+            format!("{stroke}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}{shown}")
         };
         self.missed.iter().map(line).collect()
     }

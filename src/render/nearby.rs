@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::replay::{bounds, shines_through, touch};
 use super::smoothed;
 use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settings, sources};
+use crate::color::Premultiplied16;
 use crate::geometry::ViewTransform;
 use crate::post;
 use crate::raster::{ChunkBuilder, DisplayList, ListContext, SizedFilter};
@@ -91,6 +92,14 @@ impl<'a> Nearby<'a> {
         smoothed::pixel(self.size, self.pixel, values, |region, publish| {
             list.rasterize_tiles(&[region], self.pixel, &AtomicBool::new(false), &publish);
         })
+    }
+
+    /// The colours of the pixel's own samples with these settings, in the order of their pattern; `None` where it lies outside the
+    /// frame.
+    pub fn samples(&self, settings: &RenderSettings) -> Option<Vec<Premultiplied16>> {
+        let [x, y] = self.pixel;
+        let replay = self.list(&self.primitives, settings).replay(x, y)?;
+        Some(replay.samples.into_iter().map(|sample| sample.color).collect())
     }
 
     /// What paints some of the primitives.

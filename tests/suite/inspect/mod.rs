@@ -5,4 +5,5 @@ mod asked_rendering;
 mod contributions;
 mod painting;
 mod pixels;
+mod reasons;
 mod seams;

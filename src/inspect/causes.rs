@@ -1,0 +1,159 @@
+//! What the distance of a pixel from the truth comes of: for each cause how far the truth's samples that show it account for it.
+
+use std::collections::HashMap;
+
+use super::advice::distance;
+use super::explanation::Question;
+use super::model::{Causes, Explanation, Missed, MissedCause, Truth};
+use super::seen::seen_fragments;
+use crate::color::Premultiplied16;
+use crate::raster::ShadingRate;
+use crate::render::{self, Nearby, RenderSettings, Subject};
+
+/// The samples of the truth, and how they are averaged.
+struct TrueSamples<'a> {
+    nearby: &'a Nearby<'a>,
+    settings: RenderSettings,
+    shown: Vec<Premultiplied16>,
+}
+
+/// The samples of the truth, of which some show something.
+struct Shown {
+    /// These, as they are, and as they would be without it.
+    with: Vec<Premultiplied16>,
+    without: Vec<Premultiplied16>,
+    others: Vec<Premultiplied16>,
+}
+
+impl TrueSamples<'_> {
+    /// Which of them show any of some primitives: differ to see without these. `None` where there are no primitives.
+    fn showing(&self, primitives: &[u32]) -> Option<Shown> {
+        if primitives.is_empty() {
+            return None;
+        }
+        let without = self.nearby.without(primitives).samples(&self.settings)?;
+        let mut found = Shown {
+            with: Vec::new(),
+            without: Vec::new(),
+            others: Vec::new(),
+        };
+        for (with, without) in self.shown.iter().zip(without) {
+            if are_apart(*with, without) {
+                found.with.push(*with);
+                found.without.push(without);
+            } else {
+                found.others.push(*with);
+            }
+        }
+        Some(found)
+    }
+
+    /// The pixel that samples make, straight red, green, blue, alpha; `None` without any.
+    fn pixel(&self, samples: &[Premultiplied16]) -> Option<[u8; 4]> {
+        let pixel = || self.settings.resolve.resolve(samples, self.settings.rules);
+        let [a, r, g, b] = (!samples.is_empty()).then(pixel)?.to_be_bytes();
+        Some([r, g, b, a])
+    }
+
+    fn part(&self, samples: &[Premultiplied16]) -> f64 {
+        samples.len() as f64 / self.shown.len().max(1) as f64
+    }
+}
+
+impl Explanation {
+    /// What accounts for how far the pixel is from the truth; `own` are its settings.
+    pub(super) fn causes(&self, nearby: &Nearby<'_>, own: &RenderSettings, truth: &Truth) -> Causes {
+        let settings = own.truth();
+        let Some(shown) = nearby.samples(&settings) else {
+            return Causes::default();
+        };
+        let samples = TrueSamples {
+            nearby,
+            settings,
+            shown,
+        };
+        let missed = |is_one: &dyn Fn(&Missed) -> bool| {
+            let ones = self.missed.iter().filter(|missed| is_one(missed));
+            self.missed_cause(&ones.collect::<Vec<_>>(), &samples, truth)
+        };
+        let once = RenderSettings {
+            shading: ShadingRate::Centre,
+            ..settings
+        };
+        Causes {
+            thin: missed(&|missed| self.is_thin(missed)).unwrap_or_default(),
+            missed: missed(&|_| true).unwrap_or_default(),
+            topmost: self.topmost_cause(&samples, truth).unwrap_or(0.0),
+            textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
+        }
+    }
+
+    /// What some primitives that no sample meets account for: the rest of the truth, if it is what the pixel shows. `None` where
+    /// nothing shows them.
+    fn missed_cause(&self, missed: &[&Missed], samples: &TrueSamples<'_>, truth: &Truth) -> Option<MissedCause> {
+        /// So many levels of a part may come of where the samples lie.
+        const COUNTED: f64 = 1.0 / 64.0;
+        let primitives: Vec<u32> = missed.iter().map(|missed| missed.primitive).collect();
+        let found = samples.showing(&primitives)?;
+        let part = samples.part(&found.with);
+        let rest = samples.pixel(&found.others)?;
+        let area: f64 = missed.iter().map(|missed| missed.area).sum();
+        (part > 0.0).then(|| MissedCause {
+            levels: truth.distance - distance(self.color, rest),
+            part,
+            area: ((area - part).abs() < COUNTED).then_some(area),
+        })
+    }
+
+    /// What the topmost primitive accounts for: that more, or fewer, of the pixel's samples show it than of the truth's.
+    fn topmost_cause(&self, samples: &TrueSamples<'_>, truth: &Truth) -> Option<f64> {
+        let primitive = self.topmost()?.primitive;
+        let is_it = |paint: usize| self.paints[paint].primitive == primitive;
+        let own = self.samples.iter().filter(|sample| sample.seen.is_some_and(is_it));
+        let own = own.count() as f64 / self.samples.len().max(1) as f64;
+        let found = samples.showing(&[primitive])?;
+        let Some(shows) = samples.pixel(&found.with) else {
+            return Some(truth.distance);
+        };
+        // What shows beside it, and what would in its place.
+        let others = [samples.pixel(&found.others), samples.pixel(&found.without)];
+        let contrast = others.into_iter().flatten().map(|other| distance(shows, other));
+        Some((own - samples.part(&found.with)).abs() * contrast.fold(f64::INFINITY, f64::min))
+    }
+
+    /// Finds which part of the pixel shows each primitive that no sample meets: the part of the truth's samples.
+    pub(super) fn find_shown(&mut self, question: &Question<'_>) {
+        if self.missed.is_empty() {
+            return;
+        }
+        let subject = Subject {
+            settings: &question.subject.settings.truth(),
+            ..question.subject
+        };
+        let Some(replay) = render::replay(&subject, question.size, question.pixel) else {
+            return;
+        };
+        let mut shown: HashMap<u32, usize> = HashMap::new();
+        for (op, seen) in replay.painted.iter().zip(seen_fragments(&replay)) {
+            *shown.entry(op.source).or_default() += seen.into_iter().filter(|seen| *seen).count();
+        }
+        for missed in &mut self.missed {
+            let count = shown.get(&missed.primitive).copied().unwrap_or(0);
+            missed.shown = Some((count as f64 / replay.samples.len().max(1) as f64).min(1.0));
+        }
+    }
+}
+
+/// The pixel, straight red, green, blue, alpha.
+fn color(nearby: &Nearby<'_>, settings: &RenderSettings) -> Option<[u8; 4]> {
+    let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
+    Some([r, g, b, a])
+}
+
+/// Whether two samples are so far apart that it can be seen.
+fn are_apart(a: Premultiplied16, b: Premultiplied16) -> bool {
+    /// In levels.
+    const SEEN: u16 = 4;
+    let channels = a.0.iter().zip(b.0);
+    { channels }.any(|(a, b)| a.abs_diff(b) > SEEN * Premultiplied16::PER_BYTE)
+}

@@ -1,0 +1,203 @@
+//! What is given as the reason is the reason: small documents in which something else lies near, above, below or beside it.
+
+use rasterscope::inspect::{Detail, Explanation};
+use rasterscope::raster::{PixelCoverage, SampleRate};
+use rasterscope::render::RenderSettings;
+use rasterscope::rules::Rules;
+use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions};
+
+use crate::support::explaining::advised;
+
+const SIZE: [u32; 2] = [20, 20];
+
+/// A pixel of white paper, 20 pixels on each side, with this on it.
+fn told_of(body: &str, settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
+    let document = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20"><rect width="20" height="20" fill="#fff"/>{body}</svg>"##
+    );
+    let options = ReadOptions {
+        dialect: DialectChoice::Svg,
+    };
+    let scene = scene::read(document.as_bytes(), "reasons.svg", options, &NoResources).unwrap();
+    advised(&scene, settings, SIZE, pixel)
+}
+
+fn at_rate(samples: u32) -> RenderSettings {
+    RenderSettings {
+        sample_rate: SampleRate::new(samples).unwrap(),
+        outline: false,
+        ..RenderSettings::default()
+    }
+}
+
+fn by_areas() -> RenderSettings {
+    RenderSettings {
+        coverage: PixelCoverage::Exact,
+        ..at_rate(1)
+    }
+}
+
+fn hints(body: &str, settings: &RenderSettings, pixel: [u32; 2]) -> String {
+    told_of(body, settings, pixel).help_lines().join("\n")
+}
+
+#[test]
+fn what_is_missed_is_told_by_what_of_it_shows() {
+    let bar = r#"<rect x="1" y="7.6" width="16" height="0.4"/>"#;
+    let clip = r#"<clipPath id="c"><rect width="12.1" height="20"/></clipPath>"#;
+    let mask = r##"<mask id="m" maskUnits="userSpaceOnUse" x="0" y="0" width="20" height="20"><rect width="12.1" height="20" fill="#fff"/></mask>"##;
+    for (body, part) in [
+        (bar.to_owned(), "40 %"),
+        (format!(r#"{clip}<g clip-path="url(#c)">{bar}</g>"#), "about 4 %"),
+        (format!(r#"{mask}<g mask="url(#m)">{bar}</g>"#), "about 4 %"),
+        (format!(r#"<svg width="12.1" height="20">{bar}</svg>"#), "about 4 %"),
+        // What lies on it is part of it once.
+        (format!("{bar}{bar}{bar}"), "about 40 %"),
+        (
+            r##"<rect x="1" y="7.05" width="16" height="0.4"/><rect x="1" y="7.1" width="16" height="0.38" fill="#a00"/>"##
+                .to_owned(),
+            "about 43 %",
+        ),
+    ] {
+        let told = hints(&body, &at_rate(1), [12, 7]);
+        let expected = format!("What is thin passes between the samples here, {part}");
+        assert!(told.contains(&expected), "{body}: {told}");
+    }
+}
+
+#[test]
+fn what_is_clipped_away_is_not_said_to_show() {
+    let body = r#"<clipPath id="c"><rect width="12.1" height="20"/></clipPath>
+        <g clip-path="url(#c)"><rect x="1" y="7.6" width="16" height="0.4"/></g>"#;
+    let told = |pixel| told_of(body, &at_rate(1), pixel).missed_lines().join("\n");
+    let (whole, part, nothing) = (told([5, 7]), told([12, 7]), told([13, 7]));
+    assert!(whole.ends_with("covers 40 % of the pixel, and no sample"), "{whole}");
+    assert!(part.ends_with("no sample; about 4 % of the pixel shows it"), "{part}");
+    assert!(nothing.ends_with("nothing of it shows there"), "{nothing}");
+}
+
+#[test]
+fn what_hardly_shows_is_not_blamed() {
+    // The edge of the black rectangle is what few samples get wrong; the stroke on it is all but transparent.
+    let body = r##"<rect x="1" y="1.7" width="8" height="5"/>
+        <path d="M1 1.75H9" stroke="#f00" stroke-width="0.3" stroke-opacity="0.04"/>"##;
+    let told = hints(body, &at_rate(4), [2, 1]);
+    assert!(told.contains("nearer") && !told.contains("px wide"), "{told}");
+    // The white rectangle is thin, and as white as what it lies on; what sticks out below it is the line.
+    let body =
+        r##"<rect x="1" y="1.05" width="8" height="0.4"/><rect x="2.3" y="1" width="0.7" height="1" fill="#fff"/>"##;
+    let told = hints(body, &at_rate(1), [2, 1]);
+    assert!(
+        told.contains("What is thin passes between the samples here, about 12 %"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_passes_between_neighbours_is_the_reason() {
+    let body = r##"<rect x="11" y="1" width="2.3" height="3" fill="#f00"/><rect x="13.3" y="1" width="0.2" height="3"/>
+        <rect x="13.5" y="1" width="3" height="3" fill="#f00"/>"##;
+    for rate in [1, 4] {
+        let told = hints(body, &at_rate(rate), [13, 2]);
+        let expected = "What is thin passes between the samples here, 20 % of the pixel: it breaks up.";
+        assert!(told.contains(expected), "rate {rate}: {told}");
+    }
+}
+
+#[test]
+fn what_is_as_wide_as_samples_are_apart_is_not_thin() {
+    let body = r##"<path d="M0 10L20 12.5" stroke="#000" stroke-width="1"/>"##;
+    for y in 9..13 {
+        let told = hints(body, &at_rate(1), [10, y]);
+        assert!(!told.contains("px wide"), "{y}: {told}");
+    }
+}
+
+#[test]
+fn seams_between_areas_are_told_where_they_show() {
+    let left = r##"<rect x="11" y="1" width="2.5" height="3" fill="#00f"/>"##;
+    let right = r##"<rect x="13.5" y="1" width="3" height="3" fill="#00f"/>"##;
+    let between = r##"<rect x="11" y="1" width="8" height="3" fill="#fff" fill-opacity="0.5"/>"##;
+    let seam = |body: &str| hints(body, &by_areas(), [13, 2]).contains("shows through");
+    assert!(seam(&format!("{left}{right}")), "two halves");
+    assert!(
+        !seam(&format!("{left}{between}{right}")),
+        "what lies between takes its part"
+    );
+    assert!(!seam(&format!("{left}{right}{between}")), "and what lies above");
+    let white = format!("{left}{right}").replace("#00f", "#fff");
+    assert!(!seam(&white), "white on white");
+}
+
+#[test]
+fn samples_are_advised_where_areas_make_a_seam_and_areas_where_no_rate_helps() {
+    let body = r##"<rect x="11" y="1" width="2.5" height="3" fill="#00f"/><rect x="13.5" y="1" width="3" height="3" fill="#00f"/>"##;
+    let told = hints(body, &by_areas(), [13, 2]);
+    assert!(told.contains("Coverage by 16 samples: "), "{told}");
+    let told = hints(
+        body,
+        &RenderSettings {
+            sample_rate: SampleRate::new(64).unwrap(),
+            ..by_areas()
+        },
+        [13, 2],
+    );
+    assert!(
+        told.contains("Coverage by samples: "),
+        "as many as are set already: {told}"
+    );
+}
+
+#[test]
+fn an_outline_that_was_cut_is_measured_whole() {
+    let settings = RenderSettings {
+        rules: Rules::Course,
+        ..at_rate(4)
+    };
+    let found = told_of(
+        r#"<polygon points="8,1 12,1 12,5 8,5" fill-opacity="0.5"/>"#,
+        &settings,
+        [9, 2],
+    );
+    let lines: Vec<String> = (0..found.paints.len())
+        .flat_map(|paint| found.paint_lines(paint))
+        .collect();
+    let whole = "with the other triangles of its outline covers 100 % of the pixel's area, 100 % of its samples";
+    assert!(lines.iter().any(|line| line == whole), "{lines:?}");
+}
+
+#[test]
+fn a_truth_that_is_not_sure_says_so() {
+    // Hammersley's points lie in rows along diagonals, and so do these lines.
+    let lines: Vec<String> = (0..32)
+        .map(|i| format!("M{} 0l20 20", f64::from(i) * 1.25 - 20.0))
+        .collect();
+    let hatch = format!(r##"<path d="{}" stroke="#000" stroke-width="0.375"/>"##, lines.concat());
+    let found: Vec<Explanation> = (4..12).map(|x| told_of(&hatch, &at_rate(4), [x, 7])).collect();
+    let unsure = |found: &&Explanation| found.truth.as_ref().is_some_and(|truth| truth.unsure > 3.0);
+    let not_sure = found
+        .iter()
+        .find(unsure)
+        .expect("a pixel of which 256 samples do not tell");
+    let told = not_sure.help_lines().join("\n");
+    assert!(
+        told.contains("So many are too few to be sure here") && !told.contains("what it should be"),
+        "{told}"
+    );
+    for truth in found.iter().filter_map(|found| found.truth.as_ref()) {
+        assert!(truth.cures.iter().all(|cure| cure.nearer > truth.unsure), "{truth:?}");
+    }
+    let even = told_of("", &at_rate(1), [10, 10]).help_lines().join("\n");
+    let expected = "This pixel is what it should be: it has the colour of the truth (256 samples).";
+    assert_eq!(even, expected, "white paper");
+}
+
+#[test]
+fn one_sample_is_told_in_the_singular() {
+    let body = r##"<rect x="4" y="4" width="8" height="8" fill="#0a0"/>"##;
+    let text = told_of(body, &at_rate(1), [6, 6]).text(Detail::Telling);
+    assert!(
+        text.contains("paints the only sample") && !text.contains("1 samples"),
+        "{text}"
+    );
+}

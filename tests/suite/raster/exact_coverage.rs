@@ -279,7 +279,7 @@ fn a_seam_is_called_one_and_advice_knows_better() {
     assert_eq!(conflation.paints, [1, 2], "both halves");
     assert!((conflation.through - 0.25).abs() < 1e-4, "a quarter: {conflation:?}");
     let text = seam.to_string();
-    for words in ["conflation", "supersampling has no", "Coverage by samples"] {
+    for words in ["conflation", "supersampling has no", "Coverage by 16 samples"] {
         assert!(
             text.replace('\n', " ").replace("      ", " ").contains(words),
             "{words}: {text}"

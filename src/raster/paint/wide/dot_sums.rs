@@ -417,62 +417,16 @@ fn part(samples: &[Premultiplied16], side: usize, [row, column]: [usize; 2]) -> 
 
 #[cfg(test)]
 mod tests {
-    use arbtest::arbitrary::{Result, Unstructured};
-
     use super::*;
     use crate::color::ResolveSpace;
-    use crate::raster::SampleRate;
-    use crate::raster::paint::sample_colors::ShadedColors;
+    use crate::raster::paint::wide::random_tile::{SIZE, painted};
     use crate::raster::paint::wide::separable::SeparableSums;
     use crate::raster::random::any_filter;
     use crate::raster::resolve::{FilterRadius, ResolveFilter};
     use crate::raster::span::{Span, SpanRect};
 
-    /// Pixels of the tile.
-    const SIZE: [i32; 2] = [13, 6];
-
     fn weights(filter: ResolveFilter, side: i32) -> AxisWeights {
         AxisWeights::new(filter.sized(None), side)
-    }
-
-    /// A tile and its margin, some pixels of which are split.
-    fn painted(u: &mut Unstructured<'_>, side: i32, margin: i32) -> Result<SampleColors> {
-        let rate = SampleRate::new((side * side).cast_unsigned()).expect("a square");
-        let [x, y] = SIZE.map(|length| Span {
-            start: 0,
-            end: length + 2 * margin,
-        });
-        let mut colors = SampleColors::new(rate, Rules::Standard, ResolveSpace::Stored);
-        colors.reset(SpanRect { x, y }, Premultiplied16([Premultiplied16::ONE; 4]));
-        let opaque = u.ratio(3, 4)?;
-        for _ in 0..u.int_in_range(0..=20)? {
-            let (row, start) = (u.int_in_range(0..=y.end - 1)?, u.int_in_range(0..=x.end - 1)?);
-            let pixels = Span {
-                start,
-                end: u.int_in_range(start + 1..=x.end)?,
-            };
-            let samples = if u.arbitrary()? {
-                pixels.length() * usize::try_from(side * side).unwrap_or(0)
-            } else {
-                1
-            };
-            let any = |_| {
-                let alpha = if opaque {
-                    Premultiplied16::ONE
-                } else {
-                    u.int_in_range(0..=Premultiplied16::ONE)?
-                };
-                let mut channel = || u.int_in_range(0..=alpha);
-                Ok(Premultiplied16([channel()?, channel()?, channel()?, alpha]))
-            };
-            let found = (0..samples).map(any).collect::<Result<Vec<_>>>()?;
-            if samples == 1 {
-                colors.fill(pixels, row, found[0]);
-            } else {
-                colors.write(pixels, row, ShadedColors { colors: &found, opaque });
-            }
-        }
-        Ok(colors)
     }
 
     #[test]
@@ -487,7 +441,7 @@ mod tests {
             };
             tried += 1;
             let margin = weights.margin();
-            let colors = painted(u, side, margin)?;
+            let colors = painted(u, side * side, margin)?;
             let mut flat = FlatPixels::default();
             flat.find(&colors, margin.cast_unsigned() as usize);
             let [width, height] = SIZE.map(|length| usize::try_from(length).unwrap_or(0));

@@ -54,6 +54,12 @@ impl FreeSums {
         }
     }
 
+    /// What the samples of each pixel around one weigh, row by row, together and one by one, where they lie at the same places in
+    /// every pixel; else nothing.
+    pub(super) fn same(&self) -> &[(i64, Vec<i64>)] {
+        &self.same
+    }
+
     /// Calls `put` with each pixel of a tile that is not flat, by column and row, and its sum.
     pub(super) fn each(
         &mut self,

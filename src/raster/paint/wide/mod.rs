@@ -11,6 +11,7 @@
 //! | in the middle of a gradient's pixels, or of a triangle's | the colour there, if it is certain (`visibility::wide_shades`) |
 //! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`], [`dot_means`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
+//! | with stored values at the same places in every pixel | all pixels around a split one at once ([`same_places`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |
 //!
 //! Where samples lie anywhere, weights below zero may happen to outweigh the others. A pixel whose weights add up to less than
@@ -20,6 +21,9 @@ mod dot_means;
 mod dot_sums;
 pub(in crate::raster::paint) mod flat;
 mod free;
+#[cfg(test)]
+mod random_tile;
+mod same_places;
 mod separable;
 
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
@@ -28,6 +32,7 @@ use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
 use crate::raster::paint::wide::dot_sums::DotSums;
 use crate::raster::paint::wide::flat::FlatPixels;
 use crate::raster::paint::wide::free::{FreeSums, WeighedPositions};
+use crate::raster::paint::wide::same_places::SamePlaces;
 use crate::raster::paint::wide::separable::SeparableSums;
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::raster::sampling::positions::{Position, SamplePositions};
@@ -53,6 +58,8 @@ enum Sums {
     Stored(SeparableSums<f64>),
     /// Light on a grid.
     Light(SeparableSums<i64>),
+    /// Stored values at the same places in every pixel.
+    Same(SamePlaces),
     /// Samples anywhere.
     Free(FreeSums),
 }
@@ -70,6 +77,20 @@ pub(in crate::raster) struct WeighedPixels {
     pub(in crate::raster) sum: WeightedSum,
 }
 
+impl Sums {
+    /// Of samples that do not lie on a grid.
+    fn free(space: ResolveSpace, samples: &WeighedPositions) -> Self {
+        let sums = FreeSums::new(space, samples);
+        let margin = samples.weights.margin().cast_unsigned() as usize;
+        match space {
+            ResolveSpace::Stored if !sums.same().is_empty() => {
+                SamePlaces::new(sums.same(), margin).map_or(Self::Free(sums), Self::Same)
+            }
+            ResolveSpace::Stored | ResolveSpace::Linear => Self::Free(sums),
+        }
+    }
+}
+
 impl WideResolve {
     /// For one drawing.
     pub(in crate::raster) fn new(context: &ShadeContext<'_>, positions: &SamplePositions) -> Self {
@@ -81,7 +102,7 @@ impl WideResolve {
         let is_grid = (side * side).cast_unsigned() == context.rate.samples();
         let rules = context.sampling.rules;
         let sums = match context.space {
-            _ if !is_grid => Sums::Free(FreeSums::new(context.space, &samples)),
+            _ if !is_grid => Sums::free(context.space, &samples),
             ResolveSpace::Stored => match DotSums::new(&samples.weights, side, rules) {
                 Some(sums) if !is_too_little(sums.total(), positions.count()) => Sums::Dots(sums),
                 _ => Sums::Stored(SeparableSums::new(context.space, &samples.weights, side)),
@@ -114,7 +135,7 @@ impl WideResolve {
     pub(in crate::raster::paint) fn unsigned(&self) -> Option<f64> {
         match &self.sums {
             Sums::Dots(_) | Sums::Stored(_) => self.samples.weights.unsigned(),
-            Sums::Light(_) | Sums::Free(_) => None,
+            Sums::Light(_) | Sums::Same(_) | Sums::Free(_) => None,
         }
     }
 
@@ -146,6 +167,7 @@ impl WideResolve {
             Sums::Dots(_) => {}
             Sums::Stored(sums) => sums.each(colors, &self.flat, &mut put),
             Sums::Light(sums) => sums.each(colors, &self.flat, &mut put),
+            Sums::Same(sums) => sums.each(colors, &self.flat, &mut put),
             Sums::Free(sums) => sums.each(colors, &self.samples, &self.flat, &mut put),
         }
     }

@@ -21,8 +21,8 @@ const WRONG: f64 = 0.2;
 const LEAVES_OUT: f64 = 2.0;
 /// The part of what a setting brings that a reason has to account for.
 const MOSTLY: f64 = 0.5;
-/// Levels by which two truths may differ before anybody is told.
-const SURE: f64 = 3.0;
+/// Levels by which two truths may differ before anybody is told: at a plain edge they do by up to so many.
+const SURE: f64 = 6.0;
 
 impl Explanation {
     /// How far the pixel is from the truth, then everything that would bring it nearer; empty where nobody asked.

@@ -174,7 +174,7 @@ fn a_truth_that_is_not_sure_says_so() {
         .collect();
     let hatch = format!(r##"<path d="{}" stroke="#000" stroke-width="0.375"/>"##, lines.concat());
     let found: Vec<Explanation> = (4..12).map(|x| told_of(&hatch, &at_rate(4), [x, 7])).collect();
-    let unsure = |found: &&Explanation| found.truth.as_ref().is_some_and(|truth| truth.unsure > 3.0);
+    let unsure = |found: &&Explanation| found.truth.as_ref().is_some_and(|truth| truth.unsure > 6.0);
     let not_sure = found
         .iter()
         .find(unsure)

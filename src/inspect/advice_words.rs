@@ -288,11 +288,13 @@ impl Truth {
         let is_sure = self.unsure <= SURE;
         let far = levels(self.distance);
         let verdict = if self.distance == 0.0 && is_sure {
-            "This pixel is what it should be: it has the colour of the truth (256 samples).".to_owned()
+            return "This pixel is what it should be: it has the colour of the truth (256 samples).".to_owned();
+        } else if self.distance <= 1.0 && is_sure {
+            return "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned();
         } else if self.distance == 0.0 {
             "This pixel has the colour of the truth (256 samples).".to_owned()
-        } else if self.distance <= 1.0 && is_sure {
-            "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
+        } else if self.is_reached() {
+            format!("This pixel is within {far} of the truth (256 samples).")
         } else if self.cures.is_empty() {
             format!(
                 "This pixel is within {far} of the truth (256 samples); no setting that was tried brings it nearer by more than {} by itself.",
@@ -301,7 +303,7 @@ impl Truth {
         } else {
             format!("This pixel is {far} from the truth (256 samples).")
         };
-        if is_sure {
+        if is_sure && !self.is_reached() {
             return verdict;
         }
         let apart = levels(self.unsure);

@@ -91,7 +91,7 @@ impl Explanation {
     /// What some primitives that no sample meets account for: the rest of the truth, if it is what the pixel shows. `None` where
     /// nothing shows them.
     fn missed_cause(&self, missed: &[&Missed], samples: &TrueSamples<'_>, truth: &Truth) -> Option<MissedCause> {
-        /// So many levels of a part may come of where the samples lie.
+        /// So much of a part may come of where the samples lie.
         const COUNTED: f64 = 1.0 / 64.0;
         let primitives: Vec<u32> = missed.iter().map(|missed| missed.primitive).collect();
         let found = samples.showing(&primitives)?;

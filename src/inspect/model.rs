@@ -170,7 +170,8 @@ pub struct Cure {
     pub color: [u8; 4],
     /// By how many levels it is nearer.
     pub nearer: f64,
-    /// How many samples it takes, where the pattern in use brings its own number, which goes with it.
+    /// How many samples it takes, where it leaves the rate in use: the number that a pattern of somebody's own brings goes with that,
+    /// and where areas are covered, few samples are no match for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
     /// The dialect that goes with the rules, where the scene is read as the course's: on a command line its rules alone choose

@@ -184,6 +184,16 @@ fn a_truth_that_is_not_sure_says_so() {
         told.contains("So many are too few to be sure here") && !told.contains("what it should be"),
         "{told}"
     );
+    // Where it is as near as can be told, nothing was tried.
+    let reached = found.iter().find(|found| {
+        let truth = found.truth.as_ref();
+        truth.is_some_and(|truth| truth.distance > 1.0 && truth.distance <= truth.unsure)
+    });
+    let told = reached.expect("a pixel nearer than is known").help_lines().join("\n");
+    assert!(
+        told.contains("too few to be sure here") && !told.contains("was tried"),
+        "{told}"
+    );
     for truth in found.iter().filter_map(|found| found.truth.as_ref()) {
         assert!(truth.cures.iter().all(|cure| cure.nearer > truth.unsure), "{truth:?}");
     }

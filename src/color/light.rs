@@ -88,7 +88,7 @@ impl Light {
 
     /// Red, green and blue of so many opaque samples, in parts of [`ONE_LIGHT`].
     #[inline]
-    pub(super) fn of_opaque(sums: [u64; 3], count: u32) -> Self {
+    pub(crate) fn of_opaque(sums: [u64; 3], count: u32) -> Self {
         let opaque = u64::from(Premultiplied16::ONE);
         let [r, g, b] = sums.map(|sum| sum * opaque);
         Self([r, g, b, u64::from(count) * opaque])
@@ -139,6 +139,12 @@ impl LightResolver {
             return self.opaque_pixel([r, g, b].map(|sum| sum / u64::from(Premultiplied16::ONE)));
         }
         self.translucent([r, g, b], alphas)
+    }
+
+    /// Samples per pixel.
+    #[inline]
+    pub(super) fn count(&self) -> u32 {
+        self.count
     }
 
     /// The light of each stored channel of an opaque colour, in parts of [`ONE_LIGHT`].

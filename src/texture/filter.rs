@@ -139,8 +139,8 @@ impl<'a> Filter<'a> {
         pixel_filter::find(simd, &self.plan(grid), grid.side, work)
     }
 
-    /// For each of the pixels what red, green and blue of the texels of its samples count, where each of these reads the nearest texel
-    /// of one level; whether that is so. Sums over `list.pixels[i]` are written to `sums[i]`.
+    /// For each of the pixels what red, green and blue of the texels of its samples count, or of those that take part, where each of
+    /// these reads the nearest texel of one level; whether that is so. Sums over `list.pixels[i]` are written to `sums[i]`.
     pub fn value_sums(&self, simd: Level, grid: SampleGrid, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
         if self.pixel != PixelSampling::Nearest {
             return false;

@@ -211,13 +211,19 @@ impl Uncertain {
     /// The lanes of these pixels, of the first `count`.
     #[inline(always)]
     pub(super) fn lanes(self, count: usize) -> impl Iterator<Item = usize> {
-        let mut rest = self.0 & ((1 << count) - 1);
-        std::iter::from_fn(move || {
-            let lane = rest.trailing_zeros();
-            rest &= rest.wrapping_sub(1);
-            (lane < u64::BITS).then_some(lane as usize)
-        })
+        ones(self.0 & ((1 << count) - 1))
     }
+}
+
+/// The numbers of the bits that are set, from the lowest on.
+#[inline(always)]
+pub(super) fn ones(mask: u64) -> impl Iterator<Item = usize> {
+    let mut rest = mask;
+    std::iter::from_fn(move || {
+        let bit = rest.trailing_zeros();
+        rest &= rest.wrapping_sub(1);
+        (bit < u64::BITS).then_some(bit as usize)
+    })
 }
 
 impl std::ops::BitOrAssign for Uncertain {

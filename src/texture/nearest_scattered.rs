@@ -17,9 +17,8 @@ use fearless_simd::{Level, Simd, dispatch, i16x32, i32x16, u8x16, u8x32, u16x8, 
 use super::PixelSampling;
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::fixed_point::FRACTION_BITS;
-use super::nearest_samples::{AWAY, FARTHEST, LARGEST, LIST, MANY, UNCERTAIN};
-use super::nearest_sums::exact_colors;
-use super::nearest_values::{ByteValues, ValueList, add};
+use super::nearest_samples::{AWAY, FARTHEST, LARGEST, LIST, MANY, UNCERTAIN, ones};
+use super::nearest_values::{ByteValues, ValueList, add, exact};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
 
 /// Samples that are looked at together.
@@ -46,7 +45,9 @@ struct Scattered<'a> {
 /// Red, green and blue of what all samples of each pixel count; `false` where other texels than the nearest of one level are read,
 /// or numbers do not fit.
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
-    let Some(scattered) = Scattered::new(plan, side).filter(|_| list.count.is_multiple_of(TOGETHER)) else {
+    let Some(scattered) =
+        Scattered::new(plan, side).filter(|_| list.count.is_multiple_of(TOGETHER) && list.fits_masks())
+    else {
         return false;
     };
     dispatch!(level, simd => sum_with(simd, (plan, side), &scattered, list, sums));
@@ -68,7 +69,8 @@ fn sum_with<S: Simd>(
         .zip(sums.chunks_mut(MAX_LANES))
         .zip(places);
     let mut texels = [[0; TOGETHER]; MAX_LANES];
-    for ((pixels, sums), inside) in lists {
+    for (i, ((pixels, sums), inside)) in lists.enumerate() {
+        let masks = list.masks_of(i * MAX_LANES, pixels.len());
         let corners = scattered.corners(simd, plan, side, pixels);
         let mut distances = [i32x16::splat(simd, i32::MAX); MAX_LANES];
         sums.fill([0; 3]);
@@ -81,35 +83,21 @@ fn sum_with<S: Simd>(
                 };
                 *distance = scattered.find(simd, *corner, inside, texels).min(*distance);
             }
-            for (sum, texels) in sums.iter_mut().zip(&texels) {
-                scattered.add(simd, texels, list.values, sum);
+            for (lane, (sum, texels)) in sums.iter_mut().zip(&texels).enumerate() {
+                match masks {
+                    None => scattered.add(simd, texels, list.values, sum),
+                    Some(masks) => scattered.add_some(simd, (texels, masks[lane] >> first), list.values, sum),
+                }
             }
         }
         let of_pixels = inside.chunks_exact(list.count).zip(distances).zip(pixels);
-        for (((inside, distance), pixel), sum) in of_pixels.zip(sums) {
+        for (lane, (((inside, distance), pixel), sum)) in of_pixels.zip(sums).enumerate() {
             if distance.simd_lt(i32x16::splat(simd, UNCERTAIN)).any_true() {
-                *sum = exact(simd, (plan, side), *pixel, inside, list.values);
+                let mask = masks.map(|masks| masks[lane]);
+                *sum = exact::<S, MANY>(simd, (plan, side), *pixel, (inside, mask, list.values));
             }
         }
     }
-}
-
-/// What the samples of a pixel count as they are decided one by one.
-#[cold]
-#[inline(never)]
-fn exact<S: Simd>(
-    simd: S,
-    (plan, side): (&Plan<'_>, u32),
-    pixel: [u16; 2],
-    inside: &[[u8; 2]],
-    values: ByteValues<'_>,
-) -> [u64; 3] {
-    let mut sum = [0; 3];
-    let inside = inside.iter().map(|place| place.map(u32::from));
-    exact_colors::<S, MANY>(simd, plan, (side, pixel), inside, |color| {
-        add(&mut sum, color.0.map(|channel| channel.to_be_bytes()[0]), 1, values);
-    });
-    sum
 }
 
 impl<'a> Scattered<'a> {
@@ -185,11 +173,35 @@ impl<'a> Scattered<'a> {
                 }
             }
             ByteValues::Table(_) => {
+                // Not in the list, which would be written to for each sample.
+                let mut all = *sum;
                 for texel in found {
-                    add(sum, texels[*texel as usize], 1, values);
+                    add(&mut all, texels[*texel as usize], 1, values);
                 }
+                *sum = all;
             }
         }
+    }
+
+    /// Adds what those count that a mask names by its lowest bits.
+    #[inline(always)]
+    fn add_some<S: Simd>(
+        &self,
+        simd: S,
+        (found, mask): (&[u32; TOGETHER], u64),
+        values: ByteValues<'_>,
+        sum: &mut [u64; 3],
+    ) {
+        const ALL: u64 = (1 << TOGETHER) - 1;
+        if mask & ALL == ALL {
+            return self.add(simd, found, values, sum);
+        }
+        let texels = self.level.level.texels();
+        let mut all = *sum;
+        for sample in ones(mask & ALL) {
+            add(&mut all, texels[found[sample % TOGETHER] as usize], 1, values);
+        }
+        *sum = all;
     }
 }
 
@@ -274,9 +286,11 @@ mod tests {
                 .collect::<Result<Vec<[u8; 2]>>>()?;
             let mut pixel = || Ok([u.int_in_range(0..=70)?, u.int_in_range(0..=70)?]);
             let pixels: Vec<[u16; 2]> = (0..PIXELS).map(|_| pixel()).collect::<Result<_>>()?;
+            let masks = pixels.iter().map(|_| u.arbitrary()).collect::<Result<Vec<u64>>>()?;
             let list = ValueList {
                 pixels: &pixels,
                 count,
+                masks: u.arbitrary::<bool>()?.then_some(&masks[..]),
                 inside: &inside,
                 values: *u.choose(&[ByteValues::Stored, ByteValues::Table(&table)])?,
             };

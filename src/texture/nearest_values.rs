@@ -1,4 +1,5 @@
-//! What the bytes of the nearest texels count by a table, summed over the samples of pixels: their light, for one.
+//! What the bytes of the nearest texels count by a table, summed over the samples of pixels or over some of these: their light, for
+//! one.
 
 #![expect(
     clippy::inline_always,
@@ -11,7 +12,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::covered::Covered;
 use super::filter_plan::Plan;
 use super::nearest_counts::{Counts, FourTexels};
-use super::nearest_samples::{FEW, MANY, NearestSamples, Uncertain};
+use super::nearest_samples::{FEW, MANY, NearestSamples, Uncertain, ones};
 use super::nearest_sums::{Found, exact_colors};
 use super::texel_coordinates::MAX_LANES;
 
@@ -24,8 +25,24 @@ pub struct ValueList<'a> {
     pub count: usize,
     /// Column and row of each sample in its pixel, one pixel after the other; only those of one where they are the same in all.
     pub inside: &'a [[u8; 2]],
+    /// As many as pixels; bit `j` of `masks[i]` says whether sample `j` of `pixels[i]` takes part. There are 64 samples at most, then.
+    /// Without masks all take part.
+    pub masks: Option<&'a [u64]>,
     /// What each byte counts.
     pub values: ByteValues<'a>,
+}
+
+impl<'a> ValueList<'a> {
+    /// Whether there are no more samples than masks have bits for.
+    pub(super) fn fits_masks(&self) -> bool {
+        self.masks.is_none() || self.count <= 64
+    }
+
+    /// The masks of some pixels that follow each other.
+    #[inline(always)]
+    pub(super) fn masks_of(&self, first: usize, count: usize) -> Option<&'a [u64]> {
+        self.masks.map(|masks| &masks[first..first + count])
+    }
 }
 
 /// What each byte counts.
@@ -40,7 +57,9 @@ pub enum ByteValues<'a> {
 /// Red, green and blue of what all samples of each pixel count, which lie in the same places in all; `false` where other texels than
 /// the nearest are read.
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
-    if list.inside.len() > FEW {
+    if !list.fits_masks() {
+        false
+    } else if list.inside.len() > FEW {
         sum_of::<MANY>(level, plan, side, list, sums)
     } else {
         sum_of::<FEW>(level, plan, side, list, sums)
@@ -77,19 +96,21 @@ fn sum_counted<S: Simd, const N: usize>(
 ) {
     let (lanes, middle) = (S::u32s::LEN, samples.middle(plan));
     let (texels, stride) = (samples.level.level.texels(), samples.level.level.stride());
-    let all = S::i32s::splat(simd, i32::try_from(samples.count).unwrap_or(i32::MAX));
+    let count = u32::try_from(samples.count).unwrap_or(u32::MAX);
     let mut found = Counts::NONE;
-    for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
+    for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        let masks = list.masks_of(i * lanes, pixels.len());
         let centres = samples.centres_around(simd, pixels, middle);
-        found.count(simd, (samples, four), centres, (Covered::All, all));
+        found.count(simd, (samples, four), centres, Covered::new(simd, count, masks));
         for (sum, (first, counts)) in sums.iter_mut().zip(found.firsts.iter().zip(&found.in_texels)) {
-            *sum = [0; 3];
+            let mut all = [0; 3];
             for (step, shift) in [(0, 0), (stride, 16), (1, 32), (stride + 1, 48)] {
                 let count = counts >> shift & 0xFFFF;
-                add(sum, texels[(first + step) as usize], count, list.values);
+                add(&mut all, texels[(first + step) as usize], count, list.values);
             }
+            *sum = all;
         }
-        put_exact::<S, N>(simd, (plan, side), found.uncertain, (pixels, list), sums);
+        put_exact::<S, N>(simd, (plan, side), found.uncertain, (pixels, masks, list), sums);
     }
 }
 
@@ -105,15 +126,29 @@ fn sum_each<S: Simd, const N: usize>(
     let (lanes, middle) = (S::u32s::LEN, samples.middle(plan));
     let texels = samples.level.level.texels();
     let mut found = Found::<N>::NONE;
-    for (pixels, sums) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)) {
+    for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        let masks = list.masks_of(i * lanes, pixels.len());
         let uncertain = found.find(simd, samples, (pixels, 0), middle);
+        let found = &found.texels[..samples.count];
         for (lane, sum) in sums.iter_mut().enumerate() {
-            *sum = [0; 3];
-            for texel in &found.texels[..samples.count] {
-                add(sum, texels[texel[lane % MAX_LANES] as usize], 1, list.values);
+            let texel = |found: &[u32; MAX_LANES]| texels[found[lane % MAX_LANES] as usize];
+            // Not in the list, which would be written to for each sample.
+            let mut all = [0; 3];
+            match masks {
+                None => {
+                    for found in found {
+                        add(&mut all, texel(found), 1, list.values);
+                    }
+                }
+                Some(masks) => {
+                    for found in ones(masks[lane]).map_while(|sample| found.get(sample)) {
+                        add(&mut all, texel(found), 1, list.values);
+                    }
+                }
             }
+            *sum = all;
         }
-        put_exact::<S, N>(simd, (plan, side), uncertain, (pixels, list), sums);
+        put_exact::<S, N>(simd, (plan, side), uncertain, (pixels, masks, list), sums);
     }
 }
 
@@ -123,32 +158,33 @@ fn put_exact<S: Simd, const N: usize>(
     simd: S,
     plan: (&Plan<'_>, u32),
     uncertain: Uncertain,
-    (pixels, list): (&[[u16; 2]], ValueList<'_>),
+    (pixels, masks, list): (&[[u16; 2]], Option<&[u64]>, ValueList<'_>),
     sums: &mut [[u64; 3]],
 ) {
     for lane in uncertain.lanes(pixels.len()) {
-        sums[lane] = exact::<S, N>(simd, plan, pixels[lane], list);
+        let mask = masks.map(|masks| masks[lane]);
+        sums[lane] = exact::<S, N>(simd, plan, pixels[lane], (list.inside, mask, list.values));
     }
 }
 
-/// What the samples of a pixel count as they are decided one by one.
+/// What the samples of a pixel count as they are decided one by one: those that lie there in it, or of these the ones that a mask
+/// names.
 #[cold]
 #[inline(never)]
-fn exact<S: Simd, const N: usize>(
+pub(super) fn exact<S: Simd, const N: usize>(
     simd: S,
-    (plan, side): (&Plan<'_>, u32),
+    plan: (&Plan<'_>, u32),
     pixel: [u16; 2],
-    list: ValueList<'_>,
+    (inside, mask, values): (&[[u8; 2]], Option<u64>, ByteValues<'_>),
 ) -> [u64; 3] {
+    let (plan, side) = plan;
     let mut sum = [0; 3];
-    let inside = list.inside.iter().map(|place| place.map(u32::from));
+    let counts = |sample: u32| mask.is_none_or(|mask| mask.checked_shr(sample).unwrap_or(0) & 1 != 0);
+    let counted = inside.iter().zip(0..).filter(|(_, sample)| counts(*sample));
+    let inside = counted.map(|(place, _)| place.map(u32::from));
     exact_colors::<S, N>(simd, plan, (side, pixel), inside, |color| {
-        add(
-            &mut sum,
-            color.0.map(|channel| channel.to_be_bytes()[0]),
-            1,
-            list.values,
-        );
+        let bytes = color.0.map(|channel| channel.to_be_bytes()[0]);
+        add(&mut sum, bytes, 1, values);
     });
     sum
 }
@@ -195,9 +231,11 @@ mod tests {
             };
             let mut pixel = || Ok([u.int_in_range(0..=70)?, u.int_in_range(0..=70)?]);
             let pixels: Vec<[u16; 2]> = (0..21).map(|_| pixel()).collect::<Result<_>>()?;
+            let masks = pixels.iter().map(|_| u.arbitrary()).collect::<Result<Vec<u64>>>()?;
             let list = ValueList {
                 pixels: &pixels,
                 count: inside.len(),
+                masks: (inside.len() <= 64 && u.arbitrary()?).then_some(&masks[..]),
                 inside: &inside,
                 values: *u.choose(&[ByteValues::Stored, ByteValues::Table(&table)])?,
             };

@@ -283,7 +283,10 @@ pub(super) fn value_sums(plan: &Plan<'_>, side: u32, list: ValueList<'_>) -> Vec
         } else {
             i * list.count
         };
-        for inside in &list.inside[first..first + list.count] {
+        for (j, inside) in list.inside[first..first + list.count].iter().enumerate() {
+            if list.masks.is_some_and(|masks| masks[i] >> j & 1 == 0) {
+                continue;
+            }
             let at = |axis: usize| u32::from(pixel[axis]) * side + u32::from(inside[axis]);
             let color = point(plan, [at(0), at(1)]);
             for (sum, channel) in sum.iter_mut().zip(color.0) {

@@ -78,6 +78,12 @@ pub(super) trait Shade {
         false
     }
 
+    /// What red, green and blue of those samples of each pixel that its mask names add up to, stored or of [`SampleMean::byte_light`],
+    /// where there is a way that is shorter than [`Shade::points`] of each; whether there is one. The triangle must be opaque.
+    fn placed_sums(&self, _: PlacedPixels<'_>, _: &[u64], _: &SampleMean, _: &mut [[u64; 3]]) -> bool {
+        false
+    }
+
     /// Those of the pixels, with what is painted over them, for which it does not matter where exactly their samples lie; the numbers of
     /// all others are added to `open`. `false` where there is no way to know. The triangle must be opaque.
     fn bounded_pixels(&self, _: BoundedPixels<'_>, _: &SampleMean, _: &mut [u32], _: &mut Vec<usize>) -> bool {

@@ -254,6 +254,18 @@ impl<'a> Shader<'a> {
         true
     }
 
+    /// What red, green and blue of those samples of each pixel that its mask names add up to, stored or of [`SampleMean::byte_light`],
+    /// where there is a way that is shorter than [`Shader::points`] of each; whether there is one. The triangle must be opaque.
+    pub(crate) fn placed_sums(
+        &self,
+        pixels: PlacedPixels<'_>,
+        masks: &[u64],
+        mean: &SampleMean,
+        sums: &mut [[u64; 3]],
+    ) -> bool {
+        self.centres.is_none() && ask!(&self.any, AnyShader, shader => shader.placed_sums(pixels, masks, mean, sums))
+    }
+
     /// Those of the pixels, with what is painted over them, for which it does not matter where exactly their samples lie; the numbers of
     /// all others are added to `open`. `false` where there is no way to know. The triangle must be opaque.
     pub(crate) fn bounded_pixels(

@@ -143,23 +143,18 @@ impl Shade for TextureShader<'_> {
     }
 
     fn placed_pixels(&self, placed: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
-        let Reader::Standard(filter) = &self.reader else {
-            return false;
-        };
         let mut sums = vec![[0; 3]; values.len()];
-        let list = ValueList {
-            pixels: placed.pixels.places,
-            count: placed.count,
-            inside: placed.inside,
-            values: mean.byte_light().map_or(ByteValues::Stored, ByteValues::Table),
-        };
-        if !placed.tints.is_empty() || !filter.value_sums(simd::level(), placed.pixels.grid, list, &mut sums) {
-            return false;
+        let is_summed = self.value_sums((placed, None), mean, &mut sums);
+        if is_summed {
+            for (value, sum) in values.iter_mut().zip(&sums) {
+                *value = mean.pixel_of_values(*sum);
+            }
         }
-        for (value, sum) in values.iter_mut().zip(&sums) {
-            *value = mean.pixel_of_values(*sum);
-        }
-        true
+        is_summed
+    }
+
+    fn placed_sums(&self, placed: PlacedPixels<'_>, masks: &[u64], mean: &SampleMean, sums: &mut [[u64; 3]]) -> bool {
+        self.value_sums((placed, Some(masks)), mean, sums)
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
@@ -224,6 +219,27 @@ impl Shade for TextureShader<'_> {
 }
 
 impl TextureShader<'_> {
+    /// What red, green and blue of all samples of pixels add up to, or of those that masks name, stored or their light; whether it is
+    /// known without shading them one by one.
+    fn value_sums(
+        &self,
+        (placed, masks): (PlacedPixels<'_>, Option<&[u64]>),
+        mean: &SampleMean,
+        sums: &mut [[u64; 3]],
+    ) -> bool {
+        let Reader::Standard(filter) = &self.reader else {
+            return false;
+        };
+        let list = ValueList {
+            pixels: placed.pixels.places,
+            count: placed.count,
+            inside: placed.inside,
+            masks,
+            values: mean.byte_light().map_or(ByteValues::Stored, ByteValues::Table),
+        };
+        placed.tints.is_empty() && filter.value_sums(simd::level(), placed.pixels.grid, list, sums)
+    }
+
     /// Sums over the samples of pixels, of which each must be opaque, under the standard rules.
     fn filtered_sums(&self, pixels: Pixels<'_>, masks: Option<&[u64]>, sums: &mut [[u32; 4]]) {
         let list = PixelList {

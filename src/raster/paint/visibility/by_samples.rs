@@ -13,7 +13,7 @@ use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::bounded_parts::BoundedParts;
 use crate::raster::paint::visibility::fragment_points::{PixelPlaces, pack};
 use crate::raster::paint::visibility::known_pixels::KnownPixels;
-use crate::raster::paint::visibility::shading_queue::{Fragment, SharedPixels};
+use crate::raster::paint::visibility::shading_queue::{Fragment, MASK_BITS, SharedPixels};
 use crate::raster::paint::visibility::surface_shader::SurfaceShader;
 use crate::raster::sampling::place_sums::{PlaceSums, PlaceSumsByMask};
 use crate::raster::sampling::positions::{Position, SamplePositions};
@@ -63,6 +63,9 @@ pub(super) struct SampleShades {
     random: Vec<u64>,
     /// The first points of the pixels of fragments.
     corners: Vec<[u16; 2]>,
+    /// The masks of fragments, and what red, green and blue of their samples add up to.
+    masks: Vec<u64>,
+    values: Vec<[u64; 3]>,
     /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
     by_mask: PlaceSumsByMask,
     sums: Vec<PlaceSums>,
@@ -99,9 +102,8 @@ impl BySamples {
 }
 
 impl SampleShades {
-    /// Finds the samples of fragments, each of one of the pixels of `whole`; `grid` counts the tile's.
+    /// Finds the samples of fragments, each of one of the pixels of `whole`, which are placed; `grid` counts the tile's.
     pub(super) fn gather(&mut self, fragments: &[Fragment], positions: &SamplePositions, grid: SampleGrid) {
-        self.place(positions, grid);
         self.corners.clear();
         self.corners
             .extend(self.whole.iter().map(|place| first_point(*place, grid)));
@@ -128,6 +130,10 @@ impl SampleShades {
         self.whole.clear();
         self.whole
             .extend(fragments.iter().map(|part| pixels.places[part.pixel as usize]));
+        self.place(samples.positions, samples.grid);
+        if let Some(count) = self.add_values(shader, samples, fragments, pixels) {
+            return count;
+        }
         self.gather(fragments, samples.positions, samples.grid);
         self.shade(shader, samples.grid);
         let mut colors = &self.colors[..self.points.len()];
@@ -145,6 +151,48 @@ impl SampleShades {
             }
         }
         self.points.len()
+    }
+
+    /// Adds up the samples of fragments of the pixels of `whole`, which are placed, where the paint knows their sums without shading them
+    /// one by one. How many samples, then.
+    fn add_values(
+        &mut self,
+        shader: &SurfaceShader<'_>,
+        TileSamples { positions, mean, grid }: TileSamples<'_>,
+        fragments: &[Fragment],
+        pixels: &mut SharedPixels<'_>,
+    ) -> Option<usize> {
+        let (lowest, tints) = shader.tinted()?;
+        // Masks count from the first sample, then.
+        if positions.count() > MASK_BITS {
+            return None;
+        }
+        self.masks.clear();
+        self.masks.extend(fragments.iter().map(|part| part.mask));
+        self.values.clear();
+        self.values.resize(fragments.len(), [0; 3]);
+        let placed = PlacedPixels {
+            pixels: Pixels {
+                grid,
+                places: &self.whole,
+            },
+            count: positions.count(),
+            inside: &self.inside,
+            tints,
+        };
+        if !lowest.placed_sums(placed, &self.masks, mean, &mut self.values) {
+            return None;
+        }
+        let mut samples = 0;
+        for (Fragment { pixel, mask, .. }, values) in fragments.iter().zip(&self.values) {
+            let (pixel, count) = (*pixel as usize, mask.count_ones());
+            samples += count as usize;
+            match mean {
+                SampleMean::Stored(_) => add_stored(&mut pixels.sums[pixel], *values, count),
+                SampleMean::Linear(_) => pixels.lights[pixel] += Light::of_opaque(*values, count),
+            }
+        }
+        Some(samples)
     }
 
     /// Between what the samples of parts of pixels add up to, each at a place of the tile and with a mask, where there is a way to know
@@ -297,6 +345,15 @@ impl SampleShades {
             self.shade(shader, grid);
             mean.opaque_pixels(&self.colors[..self.points.len()], &mut self.pixels);
         }
+    }
+}
+
+/// Adds the sums of so many opaque samples.
+#[inline]
+fn add_stored(sum: &mut [u32; 4], [r, g, b]: [u64; 3], count: u32) {
+    let alpha = u64::from(count) * u64::from(Premultiplied16::ONE);
+    for (sum, channel) in sum.iter_mut().zip([r, g, b, alpha]) {
+        *sum += u32::try_from(channel).unwrap_or(u32::MAX);
     }
 }
 

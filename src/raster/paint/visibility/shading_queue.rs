@@ -72,7 +72,7 @@ struct BySurface<T> {
 }
 
 /// Samples that a mask has bits for.
-const MASK_BITS: usize = 64;
+pub(super) const MASK_BITS: usize = 64;
 
 impl ShadingQueue {
     /// Forgets everything.

@@ -265,6 +265,7 @@ impl SampleShades {
         self.whole.clear();
         self.whole
             .extend(fragments.iter().map(|part| places[part.pixel as usize]));
+        self.place(samples.positions, samples.grid);
         self.gather(fragments, samples.positions, samples.grid);
         self.shade(shader, samples.grid);
         let mut shaded = self.colors[..self.points.len()].iter();

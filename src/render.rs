@@ -30,7 +30,7 @@ pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
 use parts::chunks;
 pub use regions::{Subject, draw_regions, draw_resolved, refine};
-pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
+pub use replay::{Explainer, MissedPrimitive, Neighbourhood, OpenSample, replay};
 use screen::Screen;
 pub use smoothed::widened;
 pub use timing::{Repeats, median, milliseconds, time_draws};

@@ -1,8 +1,13 @@
 //! How thin a shape is at a place: what decides whether it can pass between samples.
 
+use std::collections::HashMap;
+
 use glam::DVec2;
 
 use super::area::cut;
+
+/// A shape that holds this part of the hull around it is as good as convex.
+const CONVEX: f64 = 0.98;
 
 /// The least width, in any direction, of what triangles and a window have in common; `None` where that is nothing.
 ///
@@ -24,6 +29,105 @@ pub fn width_in_window(triangles: impl Iterator<Item = [DVec2; 3]>, window: [DVe
         Some(distances.fold(0.0, f64::max))
     });
     Some(across.min_by(f64::total_cmp).unwrap_or(0.0))
+}
+
+/// The width of a part of the triangles of a polygon, all of which lie in a window: of the widest part that touches the pixel in the
+/// middle of that, which has a margin of `around` on each side. `None` where there is nothing.
+///
+/// Parts hang together by corners. One that is convex is as wide as [`width_in_window`] says. A curved strip is less wide than the
+/// hull around it: its width is twice its area over the length of its border, as far as that is not the window's.
+pub fn width_of_part(triangles: &[[DVec2; 3]], window: [DVec2; 2], around: f64) -> Option<f64> {
+    let pixel = [window[0] + around, window[1] - around];
+    let (mut touching, mut beside): (Option<f64>, Option<f64>) = (None, None);
+    for part in parts(triangles) {
+        let Some(width) = width_of(&part, window) else {
+            continue;
+        };
+        let corners = || part.iter().flatten();
+        let low = corners().fold(DVec2::INFINITY, |low, corner| low.min(*corner));
+        let high = corners().fold(DVec2::NEG_INFINITY, |high, corner| high.max(*corner));
+        let touches = low.cmplt(pixel[1]).all() && high.cmpgt(pixel[0]).all();
+        let widest = if touches { &mut touching } else { &mut beside };
+        *widest = Some(widest.map_or(width, |widest| widest.max(width)));
+    }
+    touching.or(beside)
+}
+
+/// A corner as it can be looked up.
+fn key(corner: DVec2) -> [u64; 2] {
+    [corner.x.to_bits(), corner.y.to_bits()]
+}
+
+/// Triangles that hang together by corners.
+fn parts(triangles: &[[DVec2; 3]]) -> Vec<Vec<[DVec2; 3]>> {
+    fn root(parents: &mut [usize], mut at: usize) -> usize {
+        while parents[at] != at {
+            parents[at] = parents[parents[at]];
+            at = parents[at];
+        }
+        at
+    }
+    let mut parents: Vec<usize> = (0..triangles.len()).collect();
+    let mut first_with = HashMap::new();
+    for (at, corner) in triangles
+        .iter()
+        .enumerate()
+        .flat_map(|(at, corners)| corners.map(|corner| (at, corner)))
+    {
+        let first = *first_with.entry(key(corner)).or_insert(at);
+        let [a, b] = [first, at].map(|at| root(&mut parents, at));
+        parents[b] = a;
+    }
+    let mut parts: HashMap<usize, Vec<[DVec2; 3]>> = HashMap::new();
+    for (at, triangle) in triangles.iter().enumerate() {
+        parts.entry(root(&mut parents, at)).or_default().push(*triangle);
+    }
+    parts.into_values().collect()
+}
+
+/// How wide a part is that hangs together.
+fn width_of(part: &[[DVec2; 3]], window: [DVec2; 2]) -> Option<f64> {
+    let across = width_in_window(part.iter().copied(), window)?;
+    let area: f64 = part
+        .iter()
+        .map(|[a, b, c]| (*b - *a).perp_dot(*c - *a).abs() / 2.0)
+        .sum();
+    let hull = convex_hull(part.as_flattened().to_vec());
+    let fan = hull
+        .windows(2)
+        .map(|edge| (edge[0] - hull[0]).perp_dot(edge[1] - hull[0]));
+    let of_hull = fan.sum::<f64>().abs() / 2.0;
+    let border = border_of(part, window);
+    // Of a strip as wide as the window there may be no border at all.
+    let is_strip = area < of_hull * CONVEX && border > 0.0;
+    Some(if is_strip {
+        across.min(2.0 * area / border)
+    } else {
+        across
+    })
+}
+
+/// The length of the border of some triangles that share whole edges, as far as it is not that of the window.
+fn border_of(part: &[[DVec2; 3]], [low, high]: [DVec2; 2]) -> f64 {
+    /// Corners on the window's border are rounded.
+    const ON_BORDER: f64 = 1e-6;
+    let mut edges = HashMap::new();
+    for [a, b, c] in part {
+        for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
+            let mut ends = [key(from), key(to)];
+            ends.sort_unstable();
+            edges.entry(ends).or_insert(([from, to], 0)).1 += 1;
+        }
+    }
+    let is_on = |line: f64, ends: [f64; 2]| ends.into_iter().all(|end| (end - line).abs() < ON_BORDER);
+    let is_cut = |[from, to]: [DVec2; 2]| {
+        let (across, down) = ([from.x, to.x], [from.y, to.y]);
+        is_on(low.x, across) || is_on(high.x, across) || is_on(low.y, down) || is_on(high.y, down)
+    };
+    let own = edges
+        .into_values()
+        .filter(|(ends, count)| count % 2 == 1 && !is_cut(*ends));
+    own.map(|([from, to], _)| from.distance(to)).sum()
 }
 
 /// The corners of the convex hull of some points, in order around it: Andrew's monotone chain.
@@ -51,6 +155,7 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{FillRule, cut_to_window};
     use super::*;
 
     #[test]
@@ -79,5 +184,72 @@ mod tests {
         assert_eq!(width_in_window([far].into_iter(), window), None, "beside it");
         let no = [at(f64::NAN, 0.0), at(6.0, 0.0), at(5.0, 1.0)];
         assert_eq!(width_in_window([no].into_iter(), window), None, "no triangle");
+    }
+
+    /// The width of what a polygon of these contours has in a window.
+    fn width_of_contours(contours: Vec<Vec<DVec2>>, window: [DVec2; 2], around: f64) -> Option<f64> {
+        let contours = contours.into_iter().map(Vec::into_iter);
+        let inside = cut_to_window(contours, FillRule::NonZero, window);
+        width_of_part(inside.triangles().expect("few edges"), window, around)
+    }
+
+    #[test]
+    fn a_curved_strip_is_as_wide_as_it_was_drawn() {
+        let mut tried = 0;
+        arbtest::arbtest(|u| {
+            let unit = |u: &mut arbtest::arbitrary::Unstructured<'_>| Ok(f64::from(u.arbitrary::<u16>()?) / 65535.0);
+            let (radius, width) = (1.0 + 8.0 * unit(u)?, 0.05 + 0.3 * unit(u)?);
+            let corner = DVec2::new(20.0, 20.0);
+            let toward = DVec2::from_angle(unit(u)? * std::f64::consts::TAU);
+            let middle = corner + 0.5 - toward * radius;
+            // A whole circle, or half of one, whose end may lie in the window.
+            let (first, last) = if u.arbitrary()? { (0, 256) } else { (0, 128) };
+            let turn = unit(u)? * std::f64::consts::TAU;
+            let ring = |radius: f64| {
+                (first..=last).map(move |i| {
+                    middle + DVec2::from_angle(turn + f64::from(i) * std::f64::consts::TAU / 256.0) * radius
+                })
+            };
+            let contour: Vec<DVec2> = ring(radius - width / 2.0)
+                .chain(ring(radius + width / 2.0).rev())
+                .collect();
+            let around = 1.0 + unit(u)?;
+            let window = [corner - around, corner + 1.0 + around];
+            if let Some(found) = width_of_contours(vec![contour], window, around) {
+                tried += 1;
+                // Only a bit of it, or an end, may lie in the window.
+                assert!(
+                    found < width * 1.1,
+                    "{found} for {width}, radius {radius}, turned by {turn}"
+                );
+                if last == 256 {
+                    assert!(found > width * 0.85, "{found} for {width}, radius {radius}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+        assert!(tried > 20, "{tried} were inside");
+    }
+
+    #[test]
+    fn the_part_in_the_pixel_counts() {
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        let bar = |left: f64, right: f64| vec![at(left, -9.0), at(right, -9.0), at(right, 9.0), at(left, 9.0)];
+        let window = [at(-2.0, -2.0), at(3.0, 3.0)];
+        let width = width_of_contours(vec![bar(0.4, 0.5), bar(1.2, 2.2)], window, 2.0).expect("inside");
+        assert!((width - 0.1).abs() < 1e-6, "the thin one: {width}");
+        let width = width_of_contours(vec![bar(1.2, 2.2)], window, 2.0).expect("beside");
+        assert!((width - 1.0).abs() < 1e-6, "nothing is nearer: {width}");
+        let joined = vec![
+            at(0.0, -9.0),
+            at(0.2, -9.0),
+            at(0.2, 0.3),
+            at(9.0, 0.3),
+            at(9.0, 0.5),
+            at(0.0, 0.5),
+        ];
+        let width = width_of_contours(vec![joined], window, 2.0).expect("inside");
+        assert!((width - 0.2).abs() < 0.02, "around a corner: {width}");
     }
 }

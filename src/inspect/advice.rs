@@ -32,21 +32,24 @@ const MOST_CURES: usize = 3;
 impl Explanation {
     /// Why a pixel has its colour, how far it is from the truth and what brings it nearer; `None` outside the picture.
     pub fn advised(question: &Question<'_>) -> Option<Self> {
-        let mut explanation = Self::new(question)?;
-        explanation.truth = explanation.find_truth(question);
-        if explanation.truth.is_some() {
-            explanation.find_shown(question);
+        let mut explanation = Self::with_masks(question)?;
+        let nearby = Nearby::new(&question.subject, question.size, question.pixel);
+        let is_little = nearby.work() <= MOST_WORK;
+        if is_little {
+            explanation.find_shown(question, &nearby);
+        }
+        explanation
+            .missed
+            .retain(|missed| !missed.in_mask || missed.shown > Some(0.0));
+        if is_little {
+            explanation.truth = explanation.find_truth(question, &nearby);
         }
         Some(explanation)
     }
 
-    /// `None` where there is too much to draw.
-    fn find_truth(&self, question: &Question<'_>) -> Option<Truth> {
+    /// `None` outside the picture.
+    fn find_truth(&self, question: &Question<'_>, nearby: &Nearby<'_>) -> Option<Truth> {
         let settings = question.subject.settings;
-        let nearby = Nearby::new(&question.subject, question.size, question.pixel);
-        if nearby.work() > MOST_WORK {
-            return None;
-        }
         let draw = |settings: &RenderSettings| {
             let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
             Some([r, g, b, a])
@@ -67,8 +70,12 @@ impl Explanation {
         if !truth.is_reached() {
             let textures = self.paints.iter().filter_map(|paint| paint.texture.as_ref());
             let texels = textures.map(|texture| u64::from(texture.size[0]) * u64::from(texture.size[1]));
+            let tiles = self.paints.iter().any(|paint| paint.pattern.is_some());
+            let of_tiles =
+                (tiles && texels.clone().next().is_none()).then(|| (Setting::PixelSampling, pixel_samplings(settings)));
             truth.cures = candidates(settings, texels.max())
                 .into_iter()
+                .chain(of_tiles)
                 .filter(|(setting, _)| *setting != Setting::PixelSampling || !self.is_luck_between_texels())
                 .filter_map(|(setting, values)| truth.cure(setting, values, draw))
                 .collect();
@@ -82,14 +89,15 @@ impl Explanation {
             truth.cures.truncate(MOST_CURES);
             for cure in &mut truth.cures {
                 let is_other = cure.setting == Setting::Pattern && is_own(settings.pattern);
-                let is_more = cure.setting == Setting::Coverage && sampled_at(settings) != settings.sample_rate;
-                cure.samples =
-                    (is_other || is_more && settings.coverage.is_exact()).then_some(sampled_at(settings).samples());
+                let is_more = cure.setting == Setting::Coverage
+                    && settings.coverage.is_exact()
+                    && cure.samples != Some(settings.sample_rate.samples());
+                cure.samples = cure.samples.filter(|_| is_other || is_more);
                 let is_of_course = cure.setting == Setting::Rules && question.subject.scene.dialect == Dialect::Course;
                 cure.dialect = is_of_course.then_some(Dialect::Course.name());
             }
             if truth.cures.iter().any(|cure| cure.setting == Setting::SampleRate) {
-                truth.causes = self.causes(&nearby, settings, &truth);
+                truth.causes = self.causes(nearby, settings, &truth);
             }
         }
         Some(truth)
@@ -146,7 +154,7 @@ impl Truth {
                 value,
                 color,
                 nearer,
-                samples: None,
+                samples: Some(settings.sample_rate.samples()),
                 dialect: None,
             })
         });
@@ -288,18 +296,28 @@ fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     }
 }
 
-/// Samples in the place of areas, or the other way.
+/// Samples in the place of areas, many and then more; or the other way.
 fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let (coverage, sample_rate) = match own.coverage {
-        PixelCoverage::Exact => (PixelCoverage::Sampled, sampled_at(own)),
-        PixelCoverage::Sampled => (PixelCoverage::Exact, own.sample_rate),
+    let by = |coverage: PixelCoverage, sample_rate: SampleRate| {
+        let settings = RenderSettings {
+            sample_rate,
+            coverage,
+            ..*own
+        };
+        (coverage.name().to_owned(), settings)
     };
-    let settings = RenderSettings {
-        sample_rate,
-        coverage,
+    if !own.coverage.is_exact() {
+        return vec![by(PixelCoverage::Exact, own.sample_rate)];
+    }
+    let sampled = RenderSettings {
+        sample_rate: sampled_at(own),
         ..*own
     };
-    vec![(coverage.name().to_owned(), settings)]
+    let more = rates(&sampled).into_iter().map(|(_, more)| more.sample_rate);
+    std::iter::once(sampled.sample_rate)
+        .chain(more)
+        .map(|rate| by(PixelCoverage::Sampled, rate))
+        .collect()
 }
 
 /// At which rate samples are tried where areas are covered, which hides the rate in use: few samples are no match for areas.
@@ -334,6 +352,18 @@ fn level_samplings(own: &RenderSettings, texels: u64) -> Vec<(String, RenderSett
         .collect()
 }
 
+/// The ways to read between texels, of textures and of patterns' tiles.
+fn pixel_samplings(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    PixelSampling::ALL
+        .into_iter()
+        .filter(|sampling| *sampling != PixelSampling::Nearest && *sampling != own.pixel_sampling)
+        .map(|pixel_sampling| {
+            let settings = RenderSettings { pixel_sampling, ..*own };
+            (pixel_sampling.name().to_owned(), settings)
+        })
+        .collect()
+}
+
 /// `texels` is how many the largest texture has.
 fn of_textures(own: &RenderSettings, texels: u64) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
     let detail = |value: &str, changes: bool, detail: LevelOfDetail| {
@@ -344,15 +374,6 @@ fn of_textures(own: &RenderSettings, texels: u64) -> Vec<(Setting, Vec<(String, 
         .into_iter()
         .filter(|anisotropy| *anisotropy > own.anisotropy)
         .map(|anisotropy| (anisotropy.taps().to_string(), RenderSettings { anisotropy, ..*own }));
-    let pixel = PixelSampling::ALL
-        .into_iter()
-        .filter(|sampling| *sampling != PixelSampling::Nearest && *sampling != own.pixel_sampling)
-        .map(|pixel_sampling| {
-            (
-                pixel_sampling.name().to_owned(),
-                RenderSettings { pixel_sampling, ..*own },
-            )
-        });
     let automatic = LevelOfDetail {
         fixed: None,
         ..own.detail
@@ -397,7 +418,7 @@ fn of_textures(own: &RenderSettings, texels: u64) -> Vec<(Setting, Vec<(String, 
             Setting::LodPer,
             detail("sample", own.detail != per_sample && !own.shading.is_once(), per_sample),
         ),
-        (Setting::PixelSampling, pixel.collect()),
+        (Setting::PixelSampling, pixel_samplings(own)),
     ]
 }
 

@@ -95,7 +95,8 @@ impl Explanation {
                 Some(_) => "SMAA has guessed here.".to_owned(),
                 None => "A guess from the form of the edges happens to fit here.".to_owned(),
             }),
-            Setting::Rules | Setting::Pattern | Setting::Coverage => None,
+            Setting::Coverage => self.mixed_areas(),
+            Setting::Rules | Setting::Pattern => None,
         }
     }
 
@@ -355,15 +356,15 @@ impl Cure {
                 Some(dialect) => format!("Rules {value} with dialect {dialect}"),
                 None => format!("Rules {value}"),
             },
-            Setting::LodLevel => "The level of detail as computed (key M in the window)".to_owned(),
-            Setting::LodBias => format!("Bias {value} (keys comma and full stop in the window)"),
-            Setting::LevelSampling => format!("Level sampling {value} (key L in the window)"),
-            Setting::Anisotropy => format!("Anisotropy {value} (key T in the window)"),
+            Setting::LodLevel => "The level of detail as computed (key M steps to it in the window)".to_owned(),
+            Setting::LodBias => format!("Bias {value} (keys comma and full stop step to it in the window)"),
+            Setting::LevelSampling => format!("Level sampling {value} (key L steps to it in the window)"),
+            Setting::Anisotropy => format!("Anisotropy {value} (key T steps to it in the window)"),
             Setting::LodPer => format!("Level of detail per {value}"),
             Setting::LodBy => format!("Level of detail by the {value} side"),
             Setting::Pyramid => format!("Pyramid {value}"),
             Setting::PyramidFilter => format!("Pyramid filter {value}"),
-            Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
+            Setting::PixelSampling => format!("Pixel sampling {value} (key P steps to it in the window)"),
             Setting::ShadingRate if value == ShadingRate::Centroid.name() => {
                 "Shading in the centroid of the covered samples".to_owned()
             }
@@ -374,12 +375,14 @@ impl Cure {
                 None => "Coverage by samples".to_owned(),
             },
             Setting::SampleRate if value == "256" => format!("{value} samples"),
-            Setting::SampleRate => format!("{value} samples (key = in the window)"),
+            Setting::SampleRate => format!("{value} samples (key = steps to it in the window)"),
             Setting::Pattern => {
                 let rate = self
                     .samples
                     .map_or(String::new(), |samples| format!(" with {samples} samples"));
-                format!("Pattern {value}{rate} (key A in the window), whose samples share neither columns nor rows")
+                format!(
+                    "Pattern {value}{rate} (key A steps to it in the window), whose samples share neither columns nor rows"
+                )
             }
             Setting::PostProcess => format!("Post-process {value}"),
         };

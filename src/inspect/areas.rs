@@ -1,6 +1,6 @@
 //! Pixels that have areas and no samples: what shows in them, and where neighbours let the background through.
 
-use super::model::{Conflation, Explanation, Paint, Truth};
+use super::model::{Conflation, Explanation, Interpolated, Paint, Truth, View};
 use super::numbers::{counted, percent};
 use crate::render::Explainer;
 
@@ -151,6 +151,27 @@ impl Explanation {
             factors.join(" x "),
             percent(*through),
         ))
+    }
+
+    /// Why areas make another colour than samples do, where nothing but flat colours is mixed and no seam is told of.
+    pub(super) fn mixed_areas(&self) -> Option<String> {
+        let is_flat = |paint: &Paint| {
+            let of_view = |view: &View| match view {
+                View::Triangle { value, .. } | View::Polygon { value, .. } => *value == Interpolated::Flat,
+            };
+            paint.texture.is_none() && paint.views.iter().all(of_view)
+        };
+        let is_part = |paint: &&Paint| {
+            paint
+                .covered
+                .is_some_and(|part| (NOTHING..=1.0 - NOTHING).contains(&part))
+        };
+        let are_several = self.paints.iter().filter(is_part).nth(1).is_some();
+        let is_reason = self.exact && self.resolve.around.is_none() && self.conflation.is_none();
+        (is_reason && are_several && self.paints.iter().all(is_flat)).then(|| {
+            "Several shapes cover parts of this pixel, and are mixed as if each lay anywhere in it (conflation)."
+                .to_owned()
+        })
     }
 
     /// The heading of [`Explanation::resolve_lines`].

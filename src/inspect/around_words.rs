@@ -17,6 +17,10 @@ impl Explanation {
         let count = around.pixels.len();
         let plural = if count == 1 { "" } else { "s" };
         let samples = match self.resolve.samples {
+            _ if self.exact => format!(
+                "{count} pixel{plural} weigh{} 1 together, each by its place around this one.",
+                if count == 1 { "s" } else { "" }
+            ),
             1 => "1 sample weighs 1, wherever it lies around the pixel's middle.".to_owned(),
             samples => format!(
                 "{samples} samples of {count} pixel{plural} weigh 1 together, each by its place around the pixel's middle."
@@ -31,7 +35,12 @@ impl Explanation {
             let words = "Their light is summed, each weighted by its alpha too: sRGB values are decoded before and encoded after.";
             lines.push(words.to_owned());
         }
-        lines.push("The samples of each pixel weigh together, this one in the middle:".to_owned());
+        let weigh = if self.exact {
+            "Each pixel weighs, this one in the middle:"
+        } else {
+            "The samples of each pixel weigh together, this one in the middle:"
+        };
+        lines.push(weigh.to_owned());
         lines.extend(around.map());
         lines.extend(around.own_lines());
         lines.extend(around.neighbour_lines());

@@ -25,7 +25,18 @@ struct Shown {
     others: Vec<Premultiplied16>,
 }
 
-impl TrueSamples<'_> {
+impl<'a> TrueSamples<'a> {
+    /// Those of the truth about what is drawn with these settings; `None` outside the picture.
+    fn new(nearby: &'a Nearby<'a>, own: &RenderSettings) -> Option<Self> {
+        let settings = own.truth();
+        let shown = nearby.samples(&settings)?;
+        Some(Self {
+            nearby,
+            settings,
+            shown,
+        })
+    }
+
     /// Which of them show any of some primitives: differ to see without these. `None` where there are no primitives.
     fn showing(&self, primitives: &[u32]) -> Option<Shown> {
         if primitives.is_empty() {
@@ -63,14 +74,8 @@ impl TrueSamples<'_> {
 impl Explanation {
     /// What accounts for how far the pixel is from the truth; `own` are its settings.
     pub(super) fn causes(&self, nearby: &Nearby<'_>, own: &RenderSettings, truth: &Truth) -> Causes {
-        let settings = own.truth();
-        let Some(shown) = nearby.samples(&settings) else {
+        let Some(samples) = TrueSamples::new(nearby, own) else {
             return Causes::default();
-        };
-        let samples = TrueSamples {
-            nearby,
-            settings,
-            shown,
         };
         let missed = |is_one: &dyn Fn(&Missed) -> bool| {
             let ones = self.missed.iter().filter(|missed| is_one(missed));
@@ -78,7 +83,7 @@ impl Explanation {
         };
         let once = RenderSettings {
             shading: ShadingRate::Centre,
-            ..settings
+            ..samples.settings
         };
         Causes {
             thin: missed(&|missed| self.is_thin(missed)).unwrap_or_default(),
@@ -93,6 +98,7 @@ impl Explanation {
     fn missed_cause(&self, missed: &[&Missed], samples: &TrueSamples<'_>, truth: &Truth) -> Option<MissedCause> {
         /// So much of a part may come of where the samples lie.
         const COUNTED: f64 = 1.0 / 64.0;
+        let counted = COUNTED + truth.unsure / 255.0;
         let primitives: Vec<u32> = missed.iter().map(|missed| missed.primitive).collect();
         let found = samples.showing(&primitives)?;
         let part = samples.part(&found.with);
@@ -101,7 +107,7 @@ impl Explanation {
         (part > 0.0).then(|| MissedCause {
             levels: truth.distance - distance(self.color, rest),
             part,
-            area: ((area - part).abs() < COUNTED).then_some(area),
+            area: ((area - part).abs() < counted).then_some(area),
         })
     }
 
@@ -122,7 +128,7 @@ impl Explanation {
     }
 
     /// Finds which part of the pixel shows each primitive that no sample meets: the part of the truth's samples.
-    pub(super) fn find_shown(&mut self, question: &Question<'_>) {
+    pub(super) fn find_shown(&mut self, question: &Question<'_>, nearby: &Nearby<'_>) {
         if self.missed.is_empty() {
             return;
         }
@@ -135,11 +141,25 @@ impl Explanation {
         };
         let mut shown: HashMap<u32, usize> = HashMap::new();
         for (op, seen) in replay.painted.iter().zip(seen_fragments(&replay)) {
-            *shown.entry(op.source).or_default() += seen.into_iter().filter(|seen| *seen).count();
+            if !seen.is_empty() {
+                *shown.entry(op.source).or_default() += seen.into_iter().filter(|seen| *seen).count();
+            }
         }
+        let samples = TrueSamples::new(nearby, question.subject.settings);
         for missed in &mut self.missed {
-            let count = shown.get(&missed.primitive).copied().unwrap_or(0);
-            missed.shown = Some((count as f64 / replay.samples.len().max(1) as f64).min(1.0));
+            if missed.in_mask {
+                let found = samples
+                    .as_ref()
+                    .and_then(|samples| samples.showing(&[missed.primitive]));
+                missed.shown = samples
+                    .as_ref()
+                    .zip(found)
+                    .map(|(samples, found)| samples.part(&found.with));
+                continue;
+            }
+            // Nothing is known of what the truth's samples do not meet either.
+            let count = shown.get(&missed.primitive);
+            missed.shown = count.map(|count| (*count as f64 / replay.samples.len().max(1) as f64).min(1.0));
         }
     }
 }

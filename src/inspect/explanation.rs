@@ -16,7 +16,7 @@ use crate::geometry::{FillRule, Polygon};
 use crate::raster::{
     Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, ShadingPlace,
 };
-use crate::render::{self, Explainer, OpenSample, Subject};
+use crate::render::{self, Explainer, MissedPrimitive, OpenSample, Subject};
 use crate::rules::Rules;
 use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes};
 
@@ -49,6 +49,14 @@ struct Sources<'a> {
 impl Explanation {
     /// Why a pixel has its colour, but for what would help; `None` outside the picture.
     pub fn new(question: &Question<'_>) -> Option<Self> {
+        let mut explanation = Self::with_masks(question)?;
+        // Whether these matter is not known.
+        explanation.missed.retain(|missed| !missed.in_mask);
+        Some(explanation)
+    }
+
+    /// The same; parts of clip paths and masks that no sample meets are among what is missed.
+    pub(super) fn with_masks(question: &Question<'_>) -> Option<Self> {
         let Question {
             subject, size, pixel, ..
         } = *question;
@@ -88,7 +96,7 @@ impl Explanation {
             count_unlisted(&mut samples, &replay, &paints);
         }
         let pinholes = question.pinholes(&samples, &paints, sources);
-        missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
+        missed.retain(|missed| pinholes.iter().all(|pinhole| pinhole.primitive != missed.source));
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
         if let Some(topmost) = Self::topmost_of(&mut paints)
             && topmost.area.is_some_and(|area| area < 1.0)
@@ -143,14 +151,20 @@ struct Shaped {
 
 impl Question<'_> {
     /// What covers parts of the pixel and none of its samples, and how wide it is `around` the pixel.
-    fn missed(&self, found: Vec<(u32, f64)>, sources: Sources<'_>, around: f64) -> Vec<Missed> {
-        let missed = |(primitive, area): (u32, f64)| {
+    fn missed(&self, found: Vec<MissedPrimitive>, sources: Sources<'_>, around: f64) -> Vec<Missed> {
+        let missed = |found: MissedPrimitive| {
+            let MissedPrimitive {
+                source: primitive,
+                area,
+                in_mask,
+            } = found;
             let polygon = self.polygon(primitive);
             Some(Missed {
                 source: self.source(primitive, sources.quotes)?,
                 primitive,
                 stroke: polygon.is_some_and(Polygon::is_stroke),
                 crisp: polygon.is_some_and(Polygon::is_crisp),
+                in_mask,
                 area,
                 shown: None,
                 width: sources.explainer.width(primitive, around)?,

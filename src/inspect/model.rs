@@ -638,6 +638,10 @@ pub struct Level {
 
 /// A primitive that covers a part of the pixel and none of its samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "facts that do not depend on each other, as JSON tells them"
+)]
 pub struct Missed {
     /// Where it stands in the document.
     pub source: Source,
@@ -647,9 +651,12 @@ pub struct Missed {
     pub stroke: bool,
     /// Whether it has one sample per pixel, the pixel's middle, at every rate.
     pub crisp: bool,
+    /// Whether it is a part of a clip path or mask.
+    pub in_mask: bool,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: f64,
-    /// The part of the truth's samples that show it: not what is hidden, clipped or masked. `None` where there is no truth.
+    /// The part of the truth's samples that show it: not what is hidden, clipped or masked; of a part of a clip path or mask, those
+    /// that it changes. `None` where there is no truth, or none of its samples is met.
     pub shown: Option<f64>,
     /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
     pub width: f64,

@@ -162,6 +162,12 @@ pub(super) struct Composited {
 }
 
 impl Fragment {
+    /// Whether it is opaque and leaves what is below it as it is, as white does that is multiplied.
+    pub(super) fn is_neutral(&self) -> bool {
+        let are_same = |a: [f64; 4], b: [f64; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < f64::EPSILON);
+        self.color[3] >= 255.0 && are_same(self.after, self.before) && !are_same(self.after, self.color)
+    }
+
     /// What it did, as one of a paint's fragments.
     pub(super) fn lines(&self, paint: &Paint, how: Composited) -> Vec<String> {
         let place = if how.exact { "pixel" } else { "sample" };

@@ -1,7 +1,7 @@
 //! Which fragments of a pixel are seen: painted over by nothing opaque, and not taken away by a clip path or mask.
 
 use crate::color::Premultiplied16;
-use crate::raster::{PaintedKind, PixelReplay};
+use crate::raster::{PaintedKind, PaintedSample, PixelReplay};
 
 /// For each op and each of its fragments whether anything of it is seen. Of a clip path or mask nothing is.
 pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
@@ -20,6 +20,7 @@ pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
                 let color = fragment.color;
                 *seen = match op.kind {
                     PaintedKind::EndLayer(compositing) if !compositing.keeps_below() => false,
+                    PaintedKind::EndLayer(_) if is_neutral(fragment) => false,
                     _ => !*sample && color != Premultiplied16::TRANSPARENT,
                 };
                 *sample |= match op.kind {
@@ -33,12 +34,23 @@ pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
             PaintedKind::EndLayer(compositing) if !compositing.keeps_below() => {
                 hidden.push(vec![true; replay.samples.len()]);
             }
-            // What is hidden around a layer is hidden in it.
-            PaintedKind::EndLayer(_) => hidden.push(above),
+            // What is hidden around a layer is hidden in it, and so is what changes nothing.
+            PaintedKind::EndLayer(_) => {
+                let mut inside = above;
+                for fragment in op.fragments.iter().filter(|fragment| is_neutral(fragment)) {
+                    inside[fragment.sample] = true;
+                }
+                hidden.push(inside);
+            }
             PaintedKind::BeginLayer => {
                 hidden.pop();
             }
         }
     }
     seen
+}
+
+/// Whether an opaque sample of a layer leaves what is below it as it is, as white does that is multiplied.
+fn is_neutral(fragment: &PaintedSample) -> bool {
+    fragment.color.is_opaque() && fragment.after == fragment.before && fragment.after != fragment.color
 }

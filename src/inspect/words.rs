@@ -13,6 +13,8 @@ enum Unseen {
     TakenBy(usize),
     /// It has no opacity.
     Transparent,
+    /// Its layer is blended with what is below so that nothing changes.
+    Neutral,
     /// Something is painted over it.
     Hidden,
 }
@@ -132,6 +134,7 @@ impl Explanation {
                     None => "",
                     Some(Unseen::TakenBy(_)) => " (taken away)",
                     Some(Unseen::Transparent) => " (transparent)",
+                    Some(Unseen::Neutral) => " (changes nothing)",
                     Some(Unseen::Hidden) => " (hidden)",
                 };
                 format!("{}{note}", paint + 1)
@@ -156,7 +159,13 @@ impl Explanation {
         for (number, found) in self.paints.iter().enumerate().skip(paint + 1) {
             match found.shape {
                 Shape::BeginLayer => later += 1,
-                Shape::EndLayer { .. } => later = later.saturating_sub(1),
+                Shape::EndLayer { .. } => {
+                    let own = later == 0;
+                    later = later.saturating_sub(1);
+                    if own && self.fragment(number, sample).is_some_and(Fragment::is_neutral) {
+                        return Some(Unseen::Neutral);
+                    }
+                }
                 Shape::EndClip | Shape::EndMask { .. } => {
                     later = later.saturating_sub(1);
                     let keeps = |fragment: &Fragment| fragment.color[3] > 0.0;
@@ -284,6 +293,7 @@ impl Explanation {
                 let lost = [
                     lost(|why| matches!(why, Unseen::TakenBy(_)), "taken away again"),
                     lost(|why| why == Unseen::Transparent, "transparent"),
+                    lost(|why| why == Unseen::Neutral, "without effect"),
                     lost(|why| why == Unseen::Hidden, "hidden"),
                 ];
                 format!("paints {}{}", which(&found.samples(), all), lost.concat())
@@ -302,6 +312,7 @@ impl Explanation {
             None => "",
             Some(Unseen::TakenBy(_)) => "; it is taken away again",
             Some(Unseen::Transparent) => "; it is transparent",
+            Some(Unseen::Neutral) => "; it changes nothing",
             Some(Unseen::Hidden) => "; it is hidden",
         };
         format!(
@@ -325,6 +336,7 @@ impl Explanation {
             (0, _) => "it takes away all samples".to_owned(),
             (count, 0) if count == all => "it takes away none".to_owned(),
             (count, 0) => format!("{count} of {all} samples stay: {}", runs(&kept)),
+            (1, _) if all == 1 => "it takes a part of the only sample".to_owned(),
             (count, part) if count == all => format!("it takes a part of {part} of {all} samples"),
             (count, part) => format!("{count} of {all} samples stay, {part} of them in part: {}", runs(&kept)),
         }
@@ -386,6 +398,7 @@ impl Explanation {
                 lines.extend(self.unseen(paint, sample).map(|why| match why {
                     Unseen::TakenBy(mask) => format!("and is taken away by {}", self.paint_title(mask)),
                     Unseen::Transparent => "and shows nothing of itself".to_owned(),
+                    Unseen::Neutral => "and its layer changes nothing of what is below it".to_owned(),
                     Unseen::Hidden => "and is hidden by what is painted later".to_owned(),
                 }));
             }
@@ -412,12 +425,17 @@ impl Explanation {
     pub fn missed_lines(&self) -> Vec<String> {
         /// The part of an area that has to be left for nothing to be said of the rest.
         const MOSTLY: f64 = 0.75;
+        /// So much may come of where the truth's samples lie.
+        const TOLD: f64 = 1.0 / 64.0;
         let line = |missed: &super::model::Missed| {
             let Source { file, line, column, .. } = &missed.source;
             let area = percent(missed.area);
             let shown = missed.shown.map_or(String::new(), |shown| match shown {
+                _ if missed.in_mask => "; it is part of a clip path or mask".to_owned(),
                 0.0 => "; nothing of it shows there".to_owned(),
-                shown if shown < missed.area * MOSTLY => format!("; {} of the pixel shows it", about(shown)),
+                shown if shown < missed.area * MOSTLY && missed.area - shown > TOLD => {
+                    format!("; {} of the pixel shows it", about(shown))
+                }
                 _ => String::new(),
             });
             let stroke = if missed.stroke { "stroke of " } else { "" };

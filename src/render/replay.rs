@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window};
+use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window, width_of_part};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
@@ -172,6 +172,17 @@ fn drop_what_paints_nothing(painted: &mut Vec<PaintedCommand>) {
     painted.retain(|_| kept.next().unwrap_or(true));
 }
 
+/// A primitive that covers a part of the pixel and none of its samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MissedPrimitive {
+    /// Index into the scene's primitives.
+    pub source: u32,
+    /// The part of the pixel that it covers in truth, `0.0..=1.0`.
+    pub area: f64,
+    /// Whether it is a part of a clip path or mask.
+    pub in_mask: bool,
+}
+
 /// Looks at single primitives from one pixel: builds them anew, with all that a display list of many drops.
 #[derive(Debug)]
 pub struct Explainer<'a> {
@@ -325,7 +336,7 @@ impl<'a> Explainer<'a> {
     }
 
     /// How wide a primitive is in the thinnest direction, in pixels, as far as it lies in the pixel or at most `around` pixels
-    /// beside it; `None` where [`Explainer::area`] is.
+    /// beside it, or the widest of its parts there that touch the pixel; `None` where [`Explainer::area`] is.
     pub fn width(&self, source: u32, around: f64) -> Option<f64> {
         let screen = self.screen();
         let corner = DVec2::from(self.pixel.map(f64::from));
@@ -335,28 +346,30 @@ impl<'a> Explainer<'a> {
             PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
             PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
                 let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), window);
-                width_in_window(inside.triangles()?.iter().copied(), window)
+                width_of_part(inside.triangles()?, window, around)
             }),
             _ => None,
         }
     }
 
-    /// Primitives that cover parts of the pixel and none of its samples: by their indices, with the part of the pixel that
-    /// they cover in truth. At most `most` of them.
-    pub fn missed(&self, painted: &[PaintedCommand], most: usize) -> Vec<(u32, f64)> {
+    /// Primitives that cover parts of the pixel and none of its samples. At most `most` of them.
+    pub fn missed(&self, painted: &[PaintedCommand], most: usize) -> Vec<MissedPrimitive> {
         /// Less than this is rounding.
         const LEAST: f64 = 1e-9;
         let masks = self.subject.scene.parts_of_masks();
-        let is_seen = |index: usize| !masks.as_ref().is_some_and(|parts| parts[index]);
         let primitives = self.subject.scene.primitives.par_iter().enumerate();
-        let near = primitives.filter(|(index, primitive)| is_seen(*index) && self.is_near(&primitive.kind));
+        let near = primitives.filter(|(_, primitive)| self.is_near(&primitive.kind));
         let hits: HashSet<u32> = painted.iter().filter(|op| op.count > 0).map(|op| op.source).collect();
-        let mut missed: Vec<(u32, f64)> = near
+        let mut missed: Vec<MissedPrimitive> = near
             .filter_map(|(index, primitive)| {
                 let source = number(index);
                 let is_hit = hits.contains(&source);
                 let area = if is_hit { None } else { self.area_of(&primitive.kind) };
-                area.filter(|area| *area > LEAST).map(|area| (source, area))
+                area.filter(|area| *area > LEAST).map(|area| MissedPrimitive {
+                    source,
+                    area,
+                    in_mask: masks.as_ref().is_some_and(|parts| parts[index]),
+                })
             })
             .collect();
         missed.truncate(most);

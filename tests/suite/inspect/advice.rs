@@ -372,7 +372,7 @@ fn advice_is_silent_about_neighbours_that_share_an_edge() {
     let told = found.hints().join("\n");
     assert!(!told.contains("thin") && !told.contains("breaks up"), "{told}");
     assert!(
-        told.contains("samples (key = in the window): "),
+        told.contains("samples (key = steps to it in the window): "),
         "more samples mix both: {told}"
     );
 }

@@ -314,7 +314,7 @@ fn more_samples_are_not_advised_where_the_truth_is_no_surer() {
     let edge = r##"<rect width="20" height="5.7" fill="#000"/>"##;
     for (rate, is_advised) in [(16, true), (100, false)] {
         let text = told_of(edge, [4, 5], rate);
-        let advised = text.contains(" samples (key = in the window): ");
+        let advised = text.contains(" samples (key = steps to it in the window): ");
         assert_eq!(advised, is_advised, "{rate} samples: {text}");
     }
 }

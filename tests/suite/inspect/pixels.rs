@@ -662,16 +662,16 @@ fn hints_name_a_cure_and_vanish_with_it() {
     };
     // Nearer to the horizon averages blur so much that a single sample is as good.
     let shimmering = hints(LevelSampling::Zero, 1, [400, 330]);
-    assert!(shimmering.contains("(key L in the window)"), "{shimmering}");
+    assert!(shimmering.contains("(key L steps to it in the window)"), "{shimmering}");
     let blurred = hints(LevelSampling::Linear, 1, [400, 310]);
-    assert!(blurred.contains("(key T in the window)"), "{blurred}");
+    assert!(blurred.contains("(key T steps to it in the window)"), "{blurred}");
     let cured = hints(LevelSampling::Linear, 16, [400, 310]);
     let levels = LevelSampling::ALL.into_iter().filter(|level| !level.weighs_area());
     for level in levels {
         let told = format!("Level sampling {} ", level.name());
         assert!(!cured.contains(&told), "an area at most: {cured}");
     }
-    assert!(!cured.contains("(key T in the window)"), "{cured}");
+    assert!(!cured.contains("(key T steps to it in the window)"), "{cured}");
 }
 
 #[test]

@@ -211,3 +211,136 @@ fn one_sample_is_told_in_the_singular() {
         "{text}"
     );
 }
+
+#[test]
+fn a_curved_line_is_as_wide_as_it_was_drawn() {
+    let width = |body: &str, pixel| {
+        let told = told_of(body, &at_rate(1), pixel);
+        told.paints.iter().find_map(|paint| paint.width)
+    };
+    for (body, pixel, expected) in [
+        (
+            r##"<circle cx="11.64" cy="11.64" r="5.01" fill="none" stroke="#000" stroke-width="0.17"/>"##,
+            [15, 8],
+            0.17,
+        ),
+        (
+            r##"<path d="M1 12.58C6.93 19.11 14.91 5.6 19 14.65" fill="none" stroke="#000" stroke-width="0.28"/>"##,
+            [14, 11],
+            0.28,
+        ),
+        (
+            r##"<circle cx="10.5" cy="6.5" r="0.8" fill="none" stroke="#000" stroke-width="0.15"/>"##,
+            [10, 7],
+            0.15,
+        ),
+        (r#"<rect x="6.45" width="0.2" height="20"/>"#, [6, 5], 0.2),
+    ] {
+        let found = width(body, pixel).unwrap_or_else(|| panic!("{body} is met"));
+        assert!((found - expected).abs() < expected * 0.1, "{body}: {found}");
+    }
+}
+
+#[test]
+fn tiles_of_patterns_are_read_in_other_ways() {
+    let pattern = r##"<pattern id="p" width="2.7" height="2.7" patternUnits="userSpaceOnUse" patternTransform="rotate(30)">
+        <rect width="1.3" height="2.7" fill="#000"/></pattern><rect width="20" height="20" fill="url(#p)"/>"##;
+    let told = hints(pattern, &at_rate(1), [9, 10]);
+    assert!(told.contains("Pixel sampling "), "{told}");
+    let flat = hints(r#"<rect width="9.5" height="20"/>"#, &at_rate(1), [9, 10]);
+    assert!(!flat.contains("Pixel sampling "), "nothing is read there: {flat}");
+}
+
+#[test]
+fn areas_give_way_to_as_many_samples_as_it_takes() {
+    // A slit of a tenth of a pixel, of which areas let 28 % through, and 16 samples a quarter.
+    let slit = r#"<rect x="2" y="2" width="6.6" height="16"/><rect x="8.7" y="2" width="6" height="16"/>"#;
+    let told = told_of(slit, &by_areas(), [8, 5]);
+    let truth = told.truth.as_ref().expect("little to draw");
+    let cure = truth.cures.first().expect("some");
+    assert!(cure.nearer > truth.distance * 0.7, "{cure:?} of {}", truth.distance);
+    assert!(cure.samples.is_some_and(|samples| samples > 16), "{cure:?}");
+    let told = told.help_lines().join("\n");
+    assert!(
+        told.contains("mixed as if each lay anywhere in it (conflation). Coverage by "),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_changes_nothing_is_not_said_to_show() {
+    let multiplied = |fill: &str| {
+        let body = format!(
+            r##"<rect width="20" height="20" fill="#e00000"/><rect id="w" x="4" y="4" width="12" height="12" fill="{fill}" style="mix-blend-mode:multiply"/>"##
+        );
+        told_of(&body, &at_rate(1), [9, 9])
+    };
+    let text = |told: &Explanation| told.text(Detail::Telling);
+    let white = multiplied("#fff");
+    let sentence = white.pixel_lines().join("\n");
+    assert!(
+        sentence.contains("Its only sample shows 2 (polygon of rect"),
+        "{sentence}"
+    );
+    assert!(
+        text(&white).contains("its layer changes nothing of what is below it"),
+        "{}",
+        text(&white)
+    );
+    let grey = multiplied("#888").pixel_lines().join("\n");
+    assert!(grey.contains(r#"rect "w""#), "{grey}");
+    // The same colour once more is what shows all the same.
+    let again = r##"<rect width="20" height="20" fill="#fff" id="again"/>"##;
+    let again = told_of(again, &at_rate(1), [9, 9]).pixel_lines().join("\n");
+    assert!(again.contains(r#"rect "again""#), "{again}");
+}
+
+#[test]
+fn what_the_truth_does_not_meet_either_is_not_said_to_be_hidden() {
+    let line = r##"<line x1="0" y1="13.0" x2="20" y2="17.7" stroke="#000" stroke-width="0.101"/>"##;
+    let told = told_of(line, &at_rate(1), [17, 16]).missed_lines().join("\n");
+    assert!(told.ends_with("of the pixel, and no sample"), "{told}");
+    let hidden =
+        format!(r#"<rect x="9.6" width="0.3" height="20"/><rect x="9.55" width="0.4" height="20" fill="red"/>{line}"#);
+    let told = told_of(&hidden, &at_rate(1), [9, 3]).missed_lines().join("\n");
+    assert!(told.contains("; nothing of it shows there"), "{told}");
+}
+
+#[test]
+fn the_only_sample_is_told_in_the_singular() {
+    let mask = r##"<mask id="m"><rect width="20" height="20" fill="#888"/></mask><rect width="20" height="20" mask="url(#m)"/>"##;
+    let told = told_of(mask, &at_rate(1), [9, 9]).text(Detail::Telling);
+    assert!(told.contains("it takes a part of the only sample"), "{told}");
+}
+
+#[test]
+fn what_a_mask_takes_between_samples_is_told() {
+    let masked = |slit: &str, content: &str| {
+        let body = format!(
+            r##"<mask id="m" maskUnits="userSpaceOnUse" x="0" y="0" width="20" height="20"><rect width="20" height="20" fill="#fff"/>{slit}</mask>{content}"##
+        );
+        told_of(&body, &at_rate(1), [8, 8])
+    };
+    let slit = r#"<rect x="8.7" width="0.2" height="20"/>"#;
+    let content = r##"<rect x="1" y="1" width="18" height="18" fill="#006" mask="url(#m)"/>"##;
+    let told = masked(slit, content);
+    let missed = told.missed_lines().join("\n");
+    assert!(
+        missed.contains("covers 20 % of the pixel, and no sample; it is part of a clip path or mask"),
+        "{missed}"
+    );
+    let help = told.help_lines().join("\n");
+    assert!(
+        help.contains("What is thin passes between the samples here, 20 %"),
+        "{help}"
+    );
+    // A mask of something that does not reach the pixel changes nothing there.
+    let far = masked(
+        slit,
+        r##"<rect x="12" y="1" width="4" height="18" fill="#006" mask="url(#m)"/>"##,
+    );
+    assert!(far.missed.is_empty(), "{:?}", far.missed);
+    let clip = r#"<clipPath id="c"><path d="M8.6 0h12v20h-12z"/></clipPath><rect width="20" height="20" clip-path="url(#c)"/>"#;
+    let clipped = told_of(clip, &at_rate(1), [8, 8]).missed_lines().join("\n");
+    assert!(clipped.contains("covers 40 % of the pixel, and no sample"), "{clipped}");
+}

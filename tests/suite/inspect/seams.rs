@@ -132,7 +132,7 @@ fn seams_of_levels_that_jump_between_triangles() {
     // Rounding 5.52 to 6 is what mixing the levels cures.
     let told = at(&two(2.86), LevelSampling::Nearest, [55, 8]);
     assert!(
-        told.contains(LEVELS) && told.contains("Level sampling linear (key L in the window): "),
+        told.contains(LEVELS) && told.contains("Level sampling linear (key L steps to it in the window): "),
         "{told}"
     );
     for (body, sampling, pixel, why) in [

@@ -114,9 +114,17 @@ pub(super) enum Missing {
     Family(String, Option<String>),
     /// A bold or an inclined face of a family that is there.
     Face(&'static str, String),
+    /// A character that no typeface has. Others may be missing as well: usvg looks for one in each chunk of text.
+    Character(char),
 }
 
 impl Missing {
+    /// Whether it needs no line of its own beside those of others.
+    pub(super) fn is_told_by(&self, others: &[Self]) -> bool {
+        let is_character = |missing: &Self| matches!(missing, Self::Character(_));
+        others.contains(self) || is_character(self) && others.iter().any(is_character)
+    }
+
     /// One line about it.
     pub(super) fn message(&self) -> Option<String> {
         let quote = crate::scene::report::quote;
@@ -130,12 +138,18 @@ impl Missing {
                 "there is no {kind} face of {}; another one is taken instead (--font adds more)",
                 quote(family)
             ),
+            Self::Character(character) => format!(
+                "there is no typeface with the character {} (U+{:04X}); a box stands for it and for others like it (--font adds more)",
+                quote(&character.to_string()),
+                u32::from(*character)
+            ),
         })
     }
 }
 
-/// Chooses typefaces as usvg does, and tells of the families and faces that are missing.
-pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontResolver<'a> {
+/// Chooses typefaces as usvg does, and tells of the families, faces and characters that are missing.
+pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Clone + Send + Sync + 'a) -> FontResolver<'a> {
+    let (fallback, tell_of_character) = (FontResolver::default_fallback_selector(), tell.clone());
     FontResolver {
         select_font: Box::new(move |font, database| {
             let found = font
@@ -161,7 +175,13 @@ pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontRes
             }
             found
         }),
-        select_fallback: FontResolver::default_fallback_selector(),
+        select_fallback: Box::new(move |character, tried, database| {
+            let found = fallback(character, tried, database);
+            if found.is_none() && !character.is_whitespace() && !character.is_control() {
+                tell_of_character(Missing::Character(character));
+            }
+            found
+        }),
     }
 }
 

@@ -98,7 +98,7 @@ pub(super) fn options<'o, 'doc>(
         fontdb: fonts.unwrap_or_default(),
         font_resolver: fonts::resolver(|missing| {
             let found = &mut lock(loading).missing;
-            if !found.contains(&missing) {
+            if !missing.is_told_by(found) {
                 found.push(missing);
             }
         }),

@@ -335,6 +335,13 @@ fn text_is_outlines_of_the_shipped_typefaces() {
     assert_eq!(told.len(), 2, "each face once: {told:?}");
     assert!(told[0].contains("no bold face of Ubuntu"), "{told:?}");
     assert!(told[1].contains("no italic face of Ubuntu"), "{told:?}");
+    let boxes = svg_scene("\n<text y='50'>ab \u{13000}\u{13001} cd</text>\n<text y='70'>\u{13002}</text>");
+    let told = lines(&boxes);
+    assert_eq!(told.len(), 1, "once: {told:?}");
+    assert!(
+        told[0].starts_with("2:1: there is no typeface with the character \u{13000} (U+13000); a box"),
+        "{told:?}"
+    );
     let mono = svg_scene("<text y='50' font-family='Hack'>Hi</text>");
     assert!(lines(&mono).is_empty(), "it is shipped: {:?}", lines(&mono));
 }

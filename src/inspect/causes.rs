@@ -10,6 +10,9 @@ use crate::color::Premultiplied16;
 use crate::raster::ShadingRate;
 use crate::render::{self, Nearby, RenderSettings, Subject};
 
+/// Levels by which colours differ so much that it can be seen.
+const SEEN: u16 = 4;
+
 /// The samples of the truth, and how they are averaged.
 struct TrueSamples<'a> {
     nearby: &'a Nearby<'a>,
@@ -121,10 +124,20 @@ impl Explanation {
         let Some(shows) = samples.pixel(&found.with) else {
             return Some(truth.distance);
         };
+        let wrong = (own - samples.part(&found.with)).abs();
+        // Where most of what shows beside it looks like it, that is not what is wrong.
+        let differs = |other: &&Premultiplied16| {
+            let other = samples.pixel(std::slice::from_ref(*other));
+            other.is_some_and(|other| distance(shows, other) > f64::from(SEEN))
+        };
+        let differing = found.others.iter().filter(differs).count() as f64 / samples.shown.len().max(1) as f64;
+        if !found.others.is_empty() && differing < wrong / 2.0 {
+            return Some(0.0);
+        }
         // What shows beside it, and what would in its place.
         let others = [samples.pixel(&found.others), samples.pixel(&found.without)];
         let contrast = others.into_iter().flatten().map(|other| distance(shows, other));
-        Some((own - samples.part(&found.with)).abs() * contrast.fold(f64::INFINITY, f64::min))
+        Some(wrong * contrast.fold(f64::INFINITY, f64::min))
     }
 
     /// Finds which part of the pixel shows each primitive that no sample meets: the part of the truth's samples.
@@ -172,8 +185,6 @@ fn color(nearby: &Nearby<'_>, settings: &RenderSettings) -> Option<[u8; 4]> {
 
 /// Whether two samples are so far apart that it can be seen.
 fn are_apart(a: Premultiplied16, b: Premultiplied16) -> bool {
-    /// In levels.
-    const SEEN: u16 = 4;
     let channels = a.0.iter().zip(b.0);
     { channels }.any(|(a, b)| a.abs_diff(b) > SEEN * Premultiplied16::PER_BYTE)
 }

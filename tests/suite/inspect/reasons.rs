@@ -344,3 +344,15 @@ fn what_a_mask_takes_between_samples_is_told() {
     let clipped = told_of(clip, &at_rate(1), [8, 8]).missed_lines().join("\n");
     assert!(clipped.contains("covers 40 % of the pixel, and no sample"), "{clipped}");
 }
+
+#[test]
+fn a_shape_beside_another_of_its_colour_is_not_blamed() {
+    let slit = r#"<rect x="2" y="2" width="6.6" height="16"/><rect x="8.7" y="2" width="6" height="16"/>"#;
+    let told = hints(slit, &at_rate(1), [8, 5]);
+    assert!(
+        !told.contains("by area"),
+        "a tenth of the pixel is missing, not 40 %: {told}"
+    );
+    let alone = hints(r#"<rect x="2" y="2" width="6.6" height="16"/>"#, &at_rate(1), [8, 5]);
+    assert!(alone.contains("covers 100 % of the pixel; by area, 60 %"), "{alone}");
+}

@@ -87,9 +87,12 @@ impl BoardCard {
                         }
                     }
                     let above = if is_low { head } else { self.above };
+                    let height = (room.y - above).max(LEAST_TILES);
                     ScrollArea::vertical()
                         .id_salt("board tiles")
-                        .max_height((room.y - above).max(LEAST_TILES))
+                        .max_height(height)
+                        // An area keeps the height that it had: without a least height, a board that was cleared stays so low.
+                        .min_scrolled_height(height)
                         .show(ui, |ui| {
                             super::look::bars_beside(ui);
                             if is_low {

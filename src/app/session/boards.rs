@@ -8,7 +8,7 @@ use super::hands::{place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand, LessonCommand, SceneCommand};
+use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand, LessonCommand, SceneCommand, Toggle};
 
 const CLOSE: &str = "Close the board";
 
@@ -127,4 +127,34 @@ fn board_without_entries_says_what_to_do() {
     click_on(&mut session, "Add to the board");
     assert_eq!(session.viewer.board().tiles().len(), 1, "A");
     assert!(says(&mut session, "RMSE"), "measured");
+}
+
+#[test]
+fn board_grows_again_with_what_it_holds_and_with_its_window() {
+    let filled = |window: [u32; 2]| {
+        let mut session = session(rings(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+        vary(&mut session, "sample-rate", "1,4");
+        session
+    };
+    let top = |session: &mut Session| {
+        // The area finds its place by the size that it had in the pass before.
+        session.settle();
+        place_of(session, CLOSE).y
+    };
+    let fresh = top(&mut filled([800, 600]));
+    let mut cleared = filled([800, 600]);
+    click_on(&mut cleared, "Clear the board");
+    let low = top(&mut cleared);
+    assert!(low > fresh + 60.0, "{low} without tiles, {fresh} with them");
+    vary(&mut cleared, "sample-rate", "1,4");
+    let again = top(&mut cleared);
+    assert!((again - fresh).abs() < 1.0, "{again} after it was empty, not {fresh}");
+    let mut grown = filled([320, 240]);
+    grown.resize([800, 600]);
+    let again = top(&mut grown);
+    assert!(
+        (again - fresh).abs() < 1.0,
+        "{again} in a window that grew, not {fresh}"
+    );
 }

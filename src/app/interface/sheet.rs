@@ -85,7 +85,7 @@ impl SheetDialog {
     fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.heading("Sheet");
         // Above the rest: the window's messages lie over what is below.
-        buttons(ui, commands);
+        buttons(ui, self.problem(viewer), commands);
         ScrollArea::vertical()
             .id_salt("sheet controls")
             .auto_shrink(false)
@@ -96,6 +96,16 @@ impl SheetDialog {
                 self.panels(ui, viewer, commands);
                 words(ui, viewer, commands);
             });
+    }
+
+    /// What is wrong with values that were typed: until they are mended, the sheet is another than its fields say.
+    fn problem(&self, viewer: &Viewer) -> Option<&str> {
+        let draft = viewer.sheet().draft();
+        let mut typed = SheetSide::ALL.into_iter().zip(&self.values);
+        typed.find_map(|(side, typed)| {
+            draft.axis(side).filter(|axis| axis.name == typed.name)?;
+            typed.problem.as_deref()
+        })
     }
 
     /// What differs on a side, and by which values.
@@ -341,11 +351,15 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     }
 }
 
-/// What can be done with the sheet.
-fn buttons(ui: &mut Ui, commands: &mut Vec<Command>) {
+/// What can be done with the sheet; where there is a `problem`, it can only be closed.
+fn buttons(ui: &mut Ui, problem: Option<&str>, commands: &mut Vec<Command>) {
     let mut button = |ui: &mut Ui, id: &str, text: &str, width: f32| {
-        let response = ui.add_sized([width, CONTROL.y], Button::new(text));
-        let response = response.on_hover_text(tip(id));
+        let problem = problem.filter(|_| id != "sheet");
+        let add = |ui: &mut Ui| ui.add_sized([width, CONTROL.y], Button::new(text));
+        let response = ui.add_enabled_ui(problem.is_none(), add).inner;
+        let response = response
+            .on_hover_text(tip(id))
+            .on_disabled_hover_text(format!("Mend the values first: {}", problem.unwrap_or_default()));
         if response.clicked() {
             commands.extend(commands::find(id).and_then(CommandSpec::command));
         }

@@ -117,6 +117,34 @@ fn lines_of_a_sheet_keep_the_old_text_on_escape() {
 }
 
 #[test]
+fn sheet_with_a_wrong_value_is_not_saved() {
+    let mut session = session(Vec::new(), [1000, 800]);
+    session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::Sheet)));
+    session.settle();
+    let disabled = |session: &mut Session| {
+        session.settle();
+        let nodes = nodes(session);
+        ["Save", "Copy command line", "Close"].map(|name| {
+            let node = nodes.iter().find(|node| node.label() == Some(name));
+            node.map(Node::is_disabled)
+        })
+    };
+    assert_eq!(disabled(&mut session), [Some(false); 3], "nothing is wrong yet");
+    let at = place_of(&mut session, "Values of the columns");
+    click(&mut session, at);
+    key(&mut session, "Ctrl+A");
+    session.type_text("1,4,abc");
+    assert_eq!(
+        disabled(&mut session),
+        [Some(true), Some(true), Some(false)],
+        "it would not be what the field says"
+    );
+    key(&mut session, "Ctrl+A");
+    session.type_text("1,4");
+    assert_eq!(disabled(&mut session), [Some(false); 3], "mended");
+}
+
+#[test]
 fn explained_pixel_leaves_the_numbers_of_a_comparison() {
     for window in [[1280, 800], [1366, 768], [1920, 1080]] {
         let mut session = session(Vec::new(), window);

@@ -4,7 +4,7 @@ use crate::viewer::AbCommand;
 use egui::{Button, DragValue, Layout, RichText, Sense, Ui, pos2, vec2};
 
 use super::compare_numbers;
-use super::controls::{choice, command_button, gave_up, heading, row, tip};
+use super::controls::{choice, command_button, finite, gave_up, heading, row, tip};
 use super::look::CONTROL;
 use crate::color::{Colormap, ResolveSpace};
 use crate::compare::{Gain, Guess, Measure};
@@ -179,6 +179,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             .range(1e-6..=1e6)
             .speed(f64::from(gain) * 0.01)
             .max_decimals(3)
+            .custom_parser(finite)
             .prefix("× ");
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
         let width = ui.available_width() - 2.0 * (CONTROL.x + 4.0);

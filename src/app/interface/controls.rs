@@ -141,6 +141,13 @@ pub(super) fn tip_beside(mut tip: Tooltip<'_>, side: RectAlign, text: impl Into<
     tip.show(|ui| ui.label(text.into()));
 }
 
+/// The number that was typed into a field; what is no finite one counts as nothing, and not as the end of the field's range.
+pub(super) fn finite(text: &str) -> Option<f64> {
+    let plain: String = text.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let number = plain.replace('\u{2212}', "-").parse().ok();
+    number.filter(|number: &f64| number.is_finite())
+}
+
 /// Whether Esc gave up what was typed into a number's field: then the old number stays.
 ///
 /// egui heeds the key in the pass in which it is pressed, but a field counts as just left in the pass after it, too, and

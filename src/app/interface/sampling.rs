@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align, DragValue, Layout, RichText, Ui, vec2};
 
-use super::controls::{Offered, choice, choice_of, command_button, drop_down, gave_up, row, tip};
+use super::controls::{Offered, choice, choice_of, command_button, drop_down, finite, gave_up, row, tip};
 use super::look::CONTROL;
 use crate::scene::Dialect;
 use crate::viewer::picture::{self, About, Control, PanelRow};
@@ -217,7 +217,7 @@ impl Number {
                 let text = text.trim().trim_start_matches(prefix.trim()).trim();
                 match none {
                     Some(none) if text.is_empty() || text == none => Some(least),
-                    _ => text.parse().ok(),
+                    _ => finite(text),
                 }
             });
         let is_taken = sized(ui, width, field, name, &shown.with_idle(number_tip(setting)));

@@ -4,7 +4,7 @@ use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
 use egui::{Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
-use super::controls::{command_button, gave_up, row};
+use super::controls::{command_button, finite, gave_up, row};
 use super::look;
 use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
 
@@ -137,6 +137,7 @@ impl Number<'_> {
                 .suffix(unit)
                 .clip_text(true)
                 .update_while_editing(false)
+                .custom_parser(finite)
                 .custom_formatter(move |value, _| {
                     if typing {
                         all_digits(value)

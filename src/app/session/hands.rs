@@ -55,8 +55,18 @@ pub(super) fn key(session: &mut Session, name: &str) {
     session.key(KeyPress::from_name(name).expect("a key"));
 }
 
-#[test]
-fn number_fields_keep_the_old_number_on_escape() {
+/// The fields of numbers, with an own number in each.
+const NUMBERS: [&str; 6] = [
+    "Centre x",
+    "Scale in pixels per unit",
+    "Rotation in degrees, clockwise",
+    "Level of detail bias",
+    "Fixed level",
+    "Gain",
+];
+
+/// A session in which all these fields are to be seen.
+fn with_numbers() -> Session {
     let mut session = session(Vec::new(), [1600, 1300]);
     for command in [
         Command::Window(WindowCommand::Panel(Toggle::On)),
@@ -66,32 +76,49 @@ fn number_fields_keep_the_old_number_on_escape() {
         session.command(command);
     }
     session.settle();
-    let state = |session: &Session| {
-        let viewer = session.viewer();
-        let render = viewer.settings().render;
-        (
-            viewer.both().view_numbers(),
-            render.detail,
-            viewer.ab().difference_gain(),
-        )
-    };
-    for name in [
-        "Centre x",
-        "Scale in pixels per unit",
-        "Rotation in degrees, clockwise",
-        "Level of detail bias",
-        "Fixed level",
-        "Gain",
-    ] {
-        let before = state(&session);
+    session
+}
+
+/// All that these fields set.
+fn numbers(session: &Session) -> impl PartialEq + std::fmt::Debug + use<> {
+    let viewer = session.viewer();
+    let render = viewer.settings().render;
+    (
+        viewer.both().view_numbers(),
+        render.detail,
+        viewer.ab().difference_gain(),
+    )
+}
+
+fn type_number(session: &mut Session, name: &str, text: &str, end: &str) {
+    let at = place_of(session, name);
+    click(session, at);
+    key(session, "Ctrl+A");
+    session.type_text(text);
+    key(session, end);
+    session.settle();
+}
+
+#[test]
+fn number_fields_keep_the_old_number_on_escape() {
+    let mut session = with_numbers();
+    for name in NUMBERS {
+        let before = numbers(&session);
         for (end, is_taken) in [("Escape", false), ("Enter", true)] {
-            let at = place_of(&mut session, name);
-            click(&mut session, at);
-            key(&mut session, "Ctrl+A");
-            session.type_text("3");
-            key(&mut session, end);
-            session.settle();
-            assert_eq!(state(&session) != before, is_taken, "{name} after {end}");
+            type_number(&mut session, name, "3", end);
+            assert_eq!(numbers(&session) != before, is_taken, "{name} after {end}");
+        }
+    }
+}
+
+#[test]
+fn number_fields_take_finite_numbers_alone() {
+    let mut session = with_numbers();
+    for name in NUMBERS {
+        let before = numbers(&session);
+        for text in ["nan", "-nan", "inf", "-inf", "1e999"] {
+            type_number(&mut session, name, text, "Enter");
+            assert_eq!(numbers(&session), before, "{text} as {name}");
         }
     }
 }

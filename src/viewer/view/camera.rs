@@ -128,8 +128,8 @@ impl Camera {
 
     /// The view with these numbers, brought into the range where pixels can be told apart.
     pub fn set(&mut self, numbers: ViewNumbers, context: &ViewContext) {
-        let finite = numbers.center.is_finite() && numbers.scale > 0.0 && numbers.rotation.is_finite();
-        if !finite {
+        let all = [numbers.center.x, numbers.center.y, numbers.scale, numbers.rotation];
+        if !all.into_iter().all(f64::is_finite) || numbers.scale <= 0.0 {
             return;
         }
         let extent = context.canvas.max_element();
@@ -424,6 +424,14 @@ mod tests {
             let before = camera;
             camera.zoom(DVec2::ZERO, wrong, &SIGHT);
             assert_eq!(camera, before, "{wrong} is no factor");
+            camera.set(
+                ViewNumbers {
+                    scale: wrong,
+                    ..numbers
+                },
+                &SIGHT,
+            );
+            assert_eq!(camera, before, "{wrong} is no scale");
         }
     }
 

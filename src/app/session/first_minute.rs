@@ -283,6 +283,33 @@ fn files_are_opened_by_keys() {
 }
 
 #[test]
+fn key_that_opened_a_question_does_not_close_it() {
+    for (name, dialog) in [
+        ("Ctrl+O", Dialog::Open),
+        ("Ctrl+G", Dialog::GoToPixel),
+        ("Ctrl+Shift+S", Dialog::SaveAs),
+    ] {
+        let mut session = session(Vec::new(), [800, 600]);
+        let rate = session.viewer().settings().render.sample_rate;
+        for _ in 0..2 {
+            key(&mut session, name);
+            session.settle();
+            assert_eq!(session.viewer().chrome().dialog(), Some(dialog), "{name}");
+        }
+        // A command of the picture.
+        key(&mut session, "2");
+        session.settle();
+        assert_eq!(
+            session.viewer().settings().render.sample_rate,
+            rate,
+            "what is typed after {name} is the answer"
+        );
+        key(&mut session, "Escape");
+        assert_eq!(session.viewer().chrome().dialog(), None, "Esc closes it");
+    }
+}
+
+#[test]
 fn scene_tells_what_to_look_at() {
     for window in WINDOWS {
         let mut session = session(Vec::new(), window);

@@ -36,6 +36,9 @@ impl Session {
             return Some(Command::Window(WindowCommand::StartCard(Toggle::Off)));
         }
         let command = commands::for_key(press)?;
+        if self.asks_again(&command) {
+            return None;
+        }
         let typing = self.interface.has_keyboard();
         let asks = matches!(
             self.viewer.chrome().dialog(),
@@ -56,6 +59,16 @@ impl Session {
             _ => false,
         };
         passes.then(|| command.clone())
+    }
+
+    /// Whether a command asks what a dialog is asking already: what is typed next is the answer, and nothing that the picture
+    /// is to do.
+    fn asks_again(&self, command: &Command) -> bool {
+        let Command::Window(WindowCommand::ToggleDialog(asked)) = command else {
+            return false;
+        };
+        let takes_text = matches!(asked, Dialog::Open | Dialog::GoToPixel | Dialog::SaveAs);
+        takes_text && self.viewer.chrome().dialog() == Some(*asked)
     }
 
     /// A pointer at `at`, in window pixels, or none in the window. True if the picture has it.

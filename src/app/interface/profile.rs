@@ -222,7 +222,7 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
         row(ui, widths, |ui| sign(ui, curve.side), cells);
     }
     let note = if edges.iter().any(Option::is_none) {
-        "No numbers where both ends of the line are alike."
+        "No width, over or under where both ends of the line are alike."
     } else if edges.iter().flatten().any(|edge| !edge.is_alone()) {
         "The line crosses more than one edge."
     } else {

@@ -76,8 +76,11 @@ fn profile_out_of_sight_says_so() {
     session.command(profile(ProfileCommand::SetLine([[20, 10], [40, 10]])));
     session.settle();
     assert!(
-        says(&mut session, "both ends of the line are alike"),
-        "nothing to measure"
+        says(
+            &mut session,
+            "No width, over or under where both ends of the line are alike"
+        ),
+        "nothing to measure but the shades"
     );
 }
 

@@ -137,6 +137,8 @@ impl SettingChange {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::SamplePattern;
+    use crate::viewer::settings::patterns;
 
     fn after(option: &str, value: &str) -> Settings {
         let mut settings = Settings::default();
@@ -189,6 +191,20 @@ mod tests {
         let grid = SettingChange::of("pattern", "grid").expect("a pattern");
         assert!(grid.apply(&mut settings).is_some(), "the user is told");
         assert_eq!(settings.render.sample_rate.samples(), 4, "the nearest square");
+    }
+
+    #[test]
+    fn tip_of_the_seed_names_all_patterns_without_chance() {
+        let tip = known("seed").expect("a setting").commands[0].more;
+        let words: Vec<&str> = tip.split([' ', ',', ':']).collect();
+        for pattern in SamplePattern::ALL {
+            let is_named = words.contains(&pattern.name());
+            assert_eq!(is_named, !pattern.is_seeded(), "{} in: {tip}", pattern.name());
+        }
+        for pattern in patterns::shipped() {
+            let is_named = words.iter().any(|word| pattern.name().starts_with(&format!("{word}-")));
+            assert!(is_named && !pattern.is_seeded(), "{} in: {tip}", pattern.name());
+        }
     }
 
     #[test]

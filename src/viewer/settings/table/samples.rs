@@ -137,7 +137,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Patterns without chance stay as they are: grid, rotated, halton, hammersley and r2",
+            more: "Patterns without chance stay as they are: grid, rotated, halton, hammersley, r2, those of msaa and custom ones",
             ..SettingCommand::new(
                 "seed",
                 "Seed of random patterns",

@@ -138,6 +138,7 @@ impl SettingChange {
 mod tests {
     use super::*;
     use crate::raster::SamplePattern;
+    use crate::viewer::commands;
     use crate::viewer::settings::patterns;
 
     fn after(option: &str, value: &str) -> Settings {
@@ -205,6 +206,18 @@ mod tests {
             let is_named = words.iter().any(|word| pattern.name().starts_with(&format!("{word}-")));
             assert!(is_named && !pattern.is_seeded(), "{} in: {tip}", pattern.name());
         }
+    }
+
+    #[test]
+    fn tip_of_the_truth_tells_what_is_not_that_of_the_picture() {
+        let tip = commands::find("truth").expect("a command").tip();
+        let truth = Settings::default().render.truth();
+        assert!(tip.contains(&truth.sample_rate.samples().to_string()), "{tip}");
+        assert!(tip.contains(truth.pattern.name()), "{tip}");
+        let mut float = after("rules", "float").render;
+        assert_ne!(float.truth().rules, float.rules, "they give way");
+        float.rules = float.truth().rules;
+        assert!(tip.contains("float") && tip.contains(float.rules.name()), "{tip}");
     }
 
     #[test]

@@ -118,7 +118,10 @@ pub(super) static COMPARE: &[CommandSpec] = &[
         "Compares A with the same scene at 256 samples per pixel",
         Group::Compare,
     )
-    .more("Each of them reads textures at level zero; all else is A's, and so are the values that are averaged")
+    .more(
+        "They lie as hammersley has them, each is shaded by itself and reads textures at level zero, no pixel is smoothed \
+         afterwards, and standard rules stand in for float ones; all else is A's, and so are the values that are averaged",
+    )
     .run(&Command::Ab(AbCommand::Compare(Against::Truth(None))))
     .argument(arguments::TRUTH),
     spec(

@@ -139,7 +139,7 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             let values: Vec<Offered<'_, &str>> = values.collect();
             let list = ui.scope(|ui| {
                 ui.set_max_width(width);
-                let tip = format!("Chooses the {}\n{}", setting.label, shown.tip());
+                let tip = format!("{}\n{}", chooses(panel.name), shown.tip());
                 drop_down(ui, panel.name, &tip, current.as_str(), &values)
             });
             let chosen = list.inner;
@@ -161,6 +161,13 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             commands.extend(chosen.and_then(|value| setting.to(&value).ok()).map(Command::Set));
         }
     }
+}
+
+/// What a list does that is called so: the words for settings beside their values are no sentence by themselves.
+fn chooses(name: &str) -> String {
+    let mut letters = name.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
+    format!("Chooses the {first}{}", letters.as_str())
 }
 
 /// A button for each of these values.
@@ -284,5 +291,22 @@ fn dialect_in_force(viewer: &Viewer) -> &'static str {
         Some(Dialect::Svg) => "read as svg",
         None if entry.is_some_and(SceneEntry::is_reading) => "reading …",
         None => "not read",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tips_of_lists_are_sentences() {
+        assert_eq!(chooses("Visualisation"), "Chooses the visualisation");
+        for setting in picture::all() {
+            let panel = setting.panel.as_ref();
+            let list = panel.filter(|panel| matches!(panel.control, Control::List | Control::ShortList));
+            let Some(panel) = list else { continue };
+            let is_noun = panel.name.starts_with(char::is_uppercase) && panel.name.len() > 4;
+            assert!(is_noun, "Chooses the {}", panel.name);
+        }
     }
 }

@@ -70,7 +70,7 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
                     let ways = ways(ui, viewer, 1);
                     ui.add_space(6.0);
                     ui.label(
-                        RichText::new("Tab goes through the ways. Any other key, or a click beside it, closes this card; ? brings them back.")
+                        RichText::new("Tab goes from button to button. Any other key, or a click beside this card, closes it; ? shows them again.")
                             .weak()
                             .small(),
                     );

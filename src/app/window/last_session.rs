@@ -159,7 +159,7 @@ fn as_left(settings: &Settings) -> Option<String> {
     let words: Vec<String> = changed.map(|setting| setting.words(settings)).collect();
     let words = words.join(", ");
     (!words.is_empty())
-        .then(|| format!("settings as you left them: {words}; Defaults in the panel brings back the first"))
+        .then(|| format!("settings as you left them: {words}; Defaults in the panel brings back the first settings"))
 }
 
 /// A monitor's part of the desktop, in device pixels.

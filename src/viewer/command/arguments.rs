@@ -70,11 +70,11 @@ const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Ar
     Argument::Form { usage, parse }
 }
 
-pub(in crate::viewer) const ROTATE: Argument = argument("DEGREES", |text| {
+pub(in crate::viewer) const ROTATE: Argument = argument("a number of degrees", |text| {
     number(text).map(|degrees| Command::View(ViewCommand::RotateBy { degrees }))
 });
 
-pub(in crate::viewer) const ZOOM: Argument = argument("FACTOR [X,Y]", |text| {
+pub(in crate::viewer) const ZOOM: Argument = argument("a factor above 0, alone or with X,Y behind it", |text| {
     let (factor, at) = match text.split_once(char::is_whitespace) {
         Some((factor, at)) => (factor, Some(point(at)?)),
         None => (text, None),
@@ -409,6 +409,14 @@ mod tests {
     }
 
     #[test]
+    fn problems_of_numbers_say_what_is_wanted() {
+        let problem = |argument: Argument, text: &str| argument.parse(text).expect_err(text);
+        assert_eq!(problem(ROTATE, "nan"), "\"nan\" is not a number of degrees");
+        let factor = problem(ZOOM, "0");
+        assert!(factor.starts_with("\"0\" is not a factor above 0"), "{factor}");
+    }
+
+    #[test]
     fn argument_forms() {
         let zoomed = ZOOM.parse("2 10,20");
         let expected = Command::View(ViewCommand::ZoomAt {
@@ -444,6 +452,7 @@ mod tests {
             (SPECTRUM, "image"),
             (ZOOM, "-1"),
             (ZOOM, "inf"),
+            (ROTATE, "nan"),
             (PAN, "1"),
             (VIEW, "0,0,0"),
             (WIPE, "1.5"),

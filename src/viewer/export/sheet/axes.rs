@@ -30,9 +30,11 @@ impl Axis {
     pub fn parse(name: &str, text: &str) -> Result<Self, String> {
         let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
         if values.iter().any(String::is_empty) {
-            return Err(format!(
-                "`{text}` has an empty value; a list is values with commas between them"
-            ));
+            let what = match text.trim() {
+                "" => "the list is empty".to_owned(),
+                text => format!("\"{text}\" has an empty value"),
+            };
+            return Err(format!("{what}; a list is values with commas between them"));
         }
         for (index, value) in values.iter().enumerate() {
             if values[..index].contains(value) {
@@ -180,7 +182,11 @@ mod tests {
 
     #[test]
     fn axes_at_fault_are_refused() {
-        for (text, why) in [("1,,4", "empty"), ("", "empty"), ("1,4,1", "twice")] {
+        for (text, why) in [
+            ("1,,4", "\"1,,4\" has an empty value"),
+            (" ", "the list is empty"),
+            ("1,4,1", "twice"),
+        ] {
             let problem = Axis::parse("sample-rate", text).expect_err(text);
             assert!(problem.contains(why), "{text}: {problem}");
         }

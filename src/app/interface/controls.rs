@@ -62,6 +62,17 @@ pub(super) fn choice_of<T: Copy + PartialEq>(
     current: T,
     values: &[(T, String)],
 ) -> Option<T> {
+    choice_where(ui, name, &|value| (tip(value), true), current, values)
+}
+
+/// The same where some values cannot be chosen: the tool tip of each, which then says why, and whether it can.
+pub(super) fn choice_where<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &dyn Fn(T) -> (String, bool),
+    current: T,
+    values: &[(T, String)],
+) -> Option<T> {
     let gap = 2.0;
     let count = values.len().max(1) as f32;
     let width = ((ui.available_width() - gap * (count - 1.0)) / count).floor();
@@ -73,9 +84,16 @@ pub(super) fn choice_of<T: Copy + PartialEq>(
             let button = Button::selectable(*value == current, fitted(ui, text, width))
                 .frame_when_inactive(true)
                 .min_size(vec2(width, CONTROL.y));
-            let response = ui.add_sized([width, CONTROL.y], button);
+            let (tip, enabled) = tip(*value);
+            let add = |ui: &mut Ui| ui.add_sized([width, CONTROL.y], button);
+            let response = if enabled {
+                add(ui)
+            } else {
+                ui.add_enabled_ui(false, add).inner
+            };
             let response = response
-                .on_hover_text(tip(*value))
+                .on_hover_text(tip.as_str())
+                .on_disabled_hover_text(tip)
                 .accessible_name(format!("{name}: {text}"));
             if response.clicked() && *value != current {
                 chosen = Some(*value);

@@ -14,13 +14,14 @@
 
 use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichText, Sense, Ui, vec2};
 
-use super::controls::{choice, tip};
+use super::controls::{choice, choice_where, tip};
 use super::corner::{CardCorner, below_title};
 use super::floating::things;
 use super::focus::FocusPanel;
 use super::look::CONTROL;
 use super::spectrum_plot::SpectrumPlot;
-use crate::compare::{Band, DECIBELS, SpectrumOf, SpectrumReading, scale_color};
+use crate::compare::{Band, DECIBELS, SpectrumAnalysis, SpectrumOf, SpectrumReading, scale_color};
+use crate::raster::Region;
 use crate::viewer::{Command, SpectrumCommand, SpectrumFound, SpectrumPart, Toggle, Viewer};
 
 /// Free space around the card, in points.
@@ -144,16 +145,32 @@ fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
                of the scene before pixels sample it. The difference costs a drawing with 256 samples for each pixel.";
     let chosen = choice(ui, "Spectrum of", tip, spectrum.of(), &values);
     commands.extend(chosen.map(SpectrumCommand::Of).map(Command::Spectrum));
-    let values = SpectrumPart::ALL.map(|part| (part, words_of(part).to_owned()));
-    let tip = "Of the whole frame, or its middle of 512 x 512 pixels; or of 128 x 128 pixels around the pinned one. Fewer pixels \
-               cost less, and tell fewer frequencies apart.";
-    let chosen = choice(ui, "Part", tip, spectrum.part(), &values);
+    let frame = viewer.both().layout().frame_size();
+    let values = SpectrumPart::ALL.map(|part| (part, words_of(part, frame).to_owned()));
+    let tip = |part: SpectrumPart| match (spectrum.of(), part) {
+        (SpectrumOf::Texture, _) => (NO_PART.to_owned(), false),
+        (_, SpectrumPart::Pin) if !spectrum.has_pin() => (NO_PIN.to_owned(), false),
+        _ => (PARTS.to_owned(), true),
+    };
+    let chosen = choice_where(ui, "Part", &tip, spectrum.part(), &values);
     commands.extend(chosen.map(SpectrumCommand::Part).map(Command::Spectrum));
 }
 
-fn words_of(part: SpectrumPart) -> &'static str {
+/// What the parts are.
+const PARTS: &str = "Of the whole frame, or of its middle where it is larger than 512 x 512 pixels; or of 128 x 128 pixels around the \
+                     pinned one. Fewer pixels cost less, and tell fewer frequencies apart.";
+/// Why there is no part around the pin.
+const NO_PIN: &str = "No pixel is pinned: pin one by a right click in the picture.";
+/// Why no part can be chosen of a texture.
+const NO_PART: &str = "That of a texture is of a whole mip level, or of 512 x 512 texels of it around what the pixel reads, whatever \
+                       part of the frame is chosen.";
+
+/// The name of a part in a frame of this size.
+fn words_of(part: SpectrumPart, frame: [u32; 2]) -> &'static str {
+    let whole = Region::of_size(frame);
     match part {
-        SpectrumPart::Whole => "whole frame",
+        SpectrumPart::Whole if SpectrumAnalysis::middle_of(whole) == whole => "whole frame",
+        SpectrumPart::Whole => "frame's middle",
         SpectrumPart::Pin => "around the pin",
     }
 }

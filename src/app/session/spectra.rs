@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{place_of, session};
+use super::hands::{nodes, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::compare::SpectrumOf;
@@ -38,6 +38,9 @@ fn spectrum_is_read_by_hand_and_closed_by_its_button() {
     session.settle();
     assert!(!says(&mut session, "Too fine for pixels"), "inside");
     assert!(says(&mut session, " dB"), "a wave");
+    session.command(Command::Inspector(InspectorCommand::Pin([300, 500])));
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.settle();
     click_on(&mut session, "Part: around the pin");
     session.settle();
     assert_eq!(session.viewer.spectrum().part(), SpectrumPart::Pin, "a part of it");
@@ -77,4 +80,29 @@ fn card_of_a_spectrum_finds_room_in_any_window() {
             }
         }
     }
+}
+
+/// Whether each of the parts of this name can be chosen.
+fn parts(session: &mut Session, whole: &str) -> [Option<bool>; 2] {
+    session.settle();
+    let nodes = nodes(session);
+    [whole, "Part: around the pin"].map(|name| {
+        let node = nodes.iter().find(|node| node.label() == Some(name));
+        node.map(|node| !node.is_disabled())
+    })
+}
+
+#[test]
+fn parts_of_a_spectrum_are_offered_where_there_are_some() {
+    let mut session = session(floor(), [1280, 800]);
+    open(&mut session);
+    let (middle, whole) = ("Part: frame's middle", "Part: whole frame");
+    assert_eq!(parts(&mut session, middle), [Some(true), Some(false)], "no pin");
+    session.command(Command::Inspector(InspectorCommand::Pin([500, 500])));
+    assert_eq!(parts(&mut session, middle), [Some(true); 2], "a pin");
+    session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Texture)));
+    assert_eq!(parts(&mut session, middle), [Some(false); 2], "a texture has none");
+    let mut small = hands::session(floor(), [500, 400]);
+    open(&mut small);
+    assert_eq!(parts(&mut small, whole), [Some(true), Some(false)], "all of it");
 }

@@ -10,6 +10,7 @@
 //!             RMSE 4.0  RMSE 8.9
 //! ```
 
+use egui::style::ScrollAnimation;
 use egui::{
     Align, Align2, Area, Button, ComboBox, Frame, Id, Layout, Order, Rect, RichText, ScrollArea, Ui, Vec2, vec2,
 };
@@ -37,6 +38,8 @@ pub(super) struct BoardCard {
     tiles: BoardTiles,
     /// What stood above the tiles in the last pass, in points.
     above: f32,
+    /// Whether the list of settings hung open in the last pass.
+    list_open: bool,
 }
 
 impl BoardCard {
@@ -89,7 +92,8 @@ impl BoardCard {
                     let above = if is_low { head } else { self.above };
                     let height = (room.y - above).max(LEAST_TILES);
                     ScrollArea::vertical()
-                        .id_salt("board tiles")
+                        // Other entries begin with the truth and the best.
+                        .id_salt(("board tiles", board.fillings()))
                         .max_height(height)
                         // An area keeps the height that it had: without a least height, a board that was cleared stays so low.
                         .min_scrolled_height(height)
@@ -116,7 +120,7 @@ impl BoardCard {
     /// What is above the tiles, below a title so high.
     fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, head: f32, commands: &mut Vec<Command>) {
         let top = ui.cursor().top();
-        controls(ui, viewer, commands);
+        controls(ui, viewer, &mut self.list_open, commands);
         self.above = head + ui.cursor().top() - top;
         if viewer.board().tiles().is_empty() {
             let hint = "Nothing to compare yet: Add A puts the settings of the picture here, Vary one entry for each value of \
@@ -168,14 +172,14 @@ fn words(viewer: &Viewer) -> String {
 }
 
 /// What changes the board.
-fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+fn controls(ui: &mut Ui, viewer: &Viewer, list_open: &mut bool, commands: &mut Vec<Command>) {
     let board = viewer.board();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
         if command_button(ui, "board-add", "Add A").clicked() {
             commands.push(Command::Board(BoardCommand::AddA));
         }
-        vary(ui, commands);
+        vary(ui, list_open, commands);
         together(ui, 166.0, "sort", |ui| {
             let sorts = BoardSort::ALL.map(|sort| (sort, sort_name(sort)));
             let sort = few(ui, ("Sort by", "board-sort"), board.sort(), &sorts);
@@ -250,20 +254,28 @@ fn few<T: Copy + PartialEq>(ui: &mut Ui, (name, id): (&str, &str), current: T, v
     chosen
 }
 
-/// A list of settings, of which one fills the board.
-fn vary(ui: &mut Ui, commands: &mut Vec<Command>) {
+/// A list of settings, of which one fills the board; `open` is whether it hung open before. It opens at its top: it has no value that
+/// is chosen, and an area would open where it was left.
+fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
+    let was_open = *open;
     let list = ComboBox::from_id_salt("vary on the board")
         .width(70.0)
         .selected_text("Vary \u{2026}")
         .height(320.0)
         .show_ui(ui, |ui| {
-            for setting in picture::all() {
+            for (index, setting) in picture::all().enumerate() {
                 let label = setting.option.replace('-', " ");
-                if ui.selectable_label(false, label).clicked() {
+                let line = ui.selectable_label(false, label);
+                if index == 0 && !was_open {
+                    line.scroll_to_me_animation(Some(Align::TOP), ScrollAnimation::none());
+                }
+                if line.clicked() {
                     commands.push(Command::Board(BoardCommand::Vary(Axis::first(setting))));
                 }
             }
-        })
+        });
+    *open = list.inner.is_some();
+    let list = list
         .response
         .on_hover_text(tip("board-vary"))
         .accessible_name("Vary on the board");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{place_of, session};
+use super::hands::{key, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
@@ -157,4 +157,53 @@ fn board_grows_again_with_what_it_holds_and_with_its_window() {
         (again - fresh).abs() < 1.0,
         "{again} in a window that grew, not {fresh}"
     );
+}
+
+#[test]
+fn other_entries_are_shown_from_the_truth_on() {
+    let mut session = session(rings(), [640, 360]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+    vary(&mut session, "seed", "0,1,2,3,4,5,6,7,8");
+    let first = place_of(&mut session, "Make tile 1 A");
+    session.pointer(Some(first));
+    for _ in 0..6 {
+        session.wheel(-1.0);
+        session.settle();
+    }
+    let scrolled = place_of(&mut session, "Make tile 1 A");
+    assert!(
+        scrolled.y < first.y - 20.0,
+        "{scrolled} after the wheel, {first} before"
+    );
+    vary(&mut session, "seed", "10,11,12,13,14,15,16,17,18");
+    session.settle();
+    let again = place_of(&mut session, "Make tile 1 A");
+    assert!((again.y - first.y).abs() < 1.0, "{again}, not {first}");
+}
+
+#[test]
+fn list_of_what_varies_opens_at_its_top() {
+    let mut session = session(rings(), [800, 600]);
+    vary(&mut session, "sample-rate", "1,4");
+    let open = |session: &mut Session| {
+        click_on(session, "Vary on the board");
+        session.settle();
+        place_of(session, "sample rate")
+    };
+    let first = open(&mut session);
+    session.pointer(Some(first));
+    for _ in 0..6 {
+        session.wheel(-1.0);
+        session.settle();
+    }
+    let scrolled = place_of(&mut session, "sample rate");
+    assert!(
+        scrolled.y < first.y - 20.0,
+        "{scrolled} after the wheel, {first} before"
+    );
+    key(&mut session, "Escape");
+    session.settle();
+    assert!(!session.interface.list_is_open(), "closed");
+    let again = open(&mut session);
+    assert!((again.y - first.y).abs() < 1.0, "{again}, not {first}");
 }

@@ -23,6 +23,8 @@ pub(in crate::viewer) struct Board {
     pub(in crate::viewer) sort: BoardSort,
     /// Pixels along each side of the region.
     pub(in crate::viewer) side: u32,
+    /// How often all entries were replaced.
+    pub(in crate::viewer) fillings: u64,
     pub(in crate::viewer) measuring: BoardMeasuring,
 }
 
@@ -33,6 +35,7 @@ impl Board {
             entries: Vec::new(),
             sort: BoardSort::default(),
             side: SIDES[1],
+            fillings: 0,
             measuring,
         }
     }
@@ -53,6 +56,12 @@ impl Board {
         }
         self.entries.push(entry);
         Ok(())
+    }
+
+    /// Puts these entries in the place of all others.
+    pub(in crate::viewer) fn fill(&mut self, entries: Vec<BoardEntry>) {
+        self.entries = entries;
+        self.fillings += 1;
     }
 
     /// The entries in the order in which they are shown.

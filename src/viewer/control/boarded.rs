@@ -80,6 +80,11 @@ impl<'a> Boarded<'a> {
         self.board.measuring.number()
     }
 
+    /// Grows whenever all entries are replaced: who looks at them begins anew.
+    pub fn fillings(&self) -> u64 {
+        self.board.fillings
+    }
+
     /// Whether tiles are being measured.
     pub fn is_measuring(&self) -> bool {
         !self.board.measuring.is_current()
@@ -322,7 +327,7 @@ impl Viewer {
         if count > MAX_ENTRIES {
             self.chrome.messages.done(first_of(axis, count));
         }
-        self.board.entries = entries;
+        self.board.fill(entries);
         self.show_board();
         Ok(())
     }

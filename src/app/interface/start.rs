@@ -1,9 +1,10 @@
 //! The first minute: what the program is for in one sentence, and four ways on. A card over the first scene has them, and
 //! the help.
 
-use egui::{Align, Button, Frame, Id, LayerId, Layout, Margin, Order, Rect, Response, RichText, Ui, vec2};
+use egui::{Align, Button, Frame, Id, LayerId, Layout, Margin, Order, Rect, Response, RichText, ScrollArea, Ui, vec2};
 
 use super::focus;
+use super::look;
 use super::places::card_area;
 use crate::viewer::{
     Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Toggle, Viewer,
@@ -12,12 +13,17 @@ use crate::viewer::{WindowCommand, gallery};
 
 /// What the program is for.
 const PURPOSE: &str = "See how a picture is sampled: put any pixel under a microscope and learn why it has its colour.";
+/// What keys and clicks do to the card.
+const KEYS: &str =
+    "Tab goes from button to button. Any other key, or a click beside this card, closes it; ? shows them again.";
 /// Widest card, in points, its margin included.
 const WIDTH: f32 = 372.0;
 /// Free space inside, in points.
 const MARGIN: i8 = 16;
 /// Height of a way, in points.
 const HEIGHT: f32 = 40.0;
+/// What stays free above and below the card, with its outline, in points.
+const AROUND: f32 = 12.0;
 /// The scene that shows what too few samples do.
 const STUDY: &str = "study/01_zone_plate.svg";
 
@@ -57,24 +63,21 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
         // Panels take clicks that are no commands of their own, such as that on the menu.
         commands.push(Command::Window(WindowCommand::StartCard(Toggle::Off)));
     }
+    let height = (free.height() - 2.0 * f32::from(MARGIN) - AROUND).max(HEIGHT);
     let ways = card_area("start card", free.center(), free)
         .show(ui.ctx(), |ui| {
-            let frame = Frame::popup(ui.style()).inner_margin(Margin::same(MARGIN));
+            let frame = Frame::popup(ui.style()).inner_margin(Margin {
+                // The bar's room is a part of it.
+                right: MARGIN - look::BAR_ROOM,
+                ..Margin::same(MARGIN)
+            });
             frame
                 .show(ui, |ui| {
-                    ui.set_width(width - 2.0 * f32::from(MARGIN));
-                    ui.label(RichText::new("Rasterscope").heading().strong());
-                    ui.add_space(2.0);
-                    ui.label(PURPOSE);
-                    ui.add_space(8.0);
-                    let ways = ways(ui, viewer, 1);
-                    ui.add_space(6.0);
-                    ui.label(
-                        RichText::new("Tab goes from button to button. Any other key, or a click beside this card, closes it; ? shows them again.")
-                            .weak()
-                            .small(),
-                    );
-                    ways
+                    ui.set_width(width - 2.0 * f32::from(MARGIN) + f32::from(look::BAR_ROOM));
+                    look::bars_beside(ui);
+                    // An area keeps the height that it had: without a least height, the card of a window that grew stays low.
+                    let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+                    area.show(ui, |ui| contents(ui, viewer)).inner
                 })
                 .inner
         })
@@ -84,6 +87,18 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
         focus::keep_in(ui.ctx(), layer, first);
     }
     commands.extend(ways.taken);
+}
+
+/// What the card says and offers.
+fn contents(ui: &mut Ui, viewer: &Viewer) -> Ways {
+    ui.label(RichText::new("Rasterscope").heading().strong());
+    ui.add_space(2.0);
+    ui.label(PURPOSE);
+    ui.add_space(8.0);
+    let ways = ways(ui, viewer, 1);
+    ui.add_space(6.0);
+    ui.label(RichText::new(KEYS).weak().small());
+    ways
 }
 
 /// The ways side by side in columns.
@@ -96,6 +111,10 @@ pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Ways {
         ui.horizontal(|ui| {
             for way in row {
                 let button = button(ui, way, width);
+                if button.gained_focus() {
+                    // Tab leads to what a small window has no room for, too.
+                    button.scroll_to_me(None);
+                }
                 if button.clicked() {
                     found.taken.clone_from(&way.does);
                 }

@@ -75,6 +75,34 @@ fn start_card_leads_on() {
 }
 
 #[test]
+fn start_card_scrolls_in_a_small_window() {
+    for window in [[320, 240], [500, 300]] {
+        let mut session = greeted(window);
+        let free = session.free_area.expect("there is room");
+        #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
+        let inside = |at: DVec2| free.contains(at.to_array().map(|side| side.floor() as i64));
+        let first = place_of(&mut session, WAYS[0]);
+        assert!(inside(first), "{first} of {window:?}");
+        session.pointer(Some(first));
+        for _ in 0..12 {
+            session.wheel(-1.0);
+            session.settle();
+        }
+        assert!(session.viewer().chrome().start_card(), "the wheel over it leaves it");
+        let last = place_of(&mut session, WAYS[3]);
+        assert!(inside(last), "{last} of {window:?}");
+        for _ in 0..5 {
+            key(&mut session, "Tab");
+            session.settle();
+        }
+        let first = place_of(&mut session, WAYS[0]);
+        assert!(inside(first), "Tab leads back to {first} of {window:?}");
+        click_on(&mut session, WAYS[0]);
+        assert!(!session.viewer().chrome().start_card(), "its way is taken");
+    }
+}
+
+#[test]
 fn explained_pixel_is_one_that_an_edge_makes_wrong() {
     for window in WINDOWS {
         let mut session = greeted(window);

@@ -7,7 +7,7 @@ use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKi
 use super::controls::tip;
 use super::menu;
 use crate::viewer::picture::{About, changed_words};
-use crate::viewer::{Command, CommandSpec, Status, Toggle, Viewer};
+use crate::viewer::{Command, CommandSpec, SceneEntry, Status, Toggle, Viewer};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
@@ -32,12 +32,7 @@ pub(super) fn show(
             ui.add_space(4.0);
             match viewer.pixels().status() {
                 Some(status) => pixel(ui, viewer, &status),
-                None => word(
-                    ui,
-                    "point at a pixel; right click explains it, ? shows all keys",
-                    FontId::proportional(13.0),
-                    true,
-                ),
+                None => word(ui, what_to_do(viewer), FontId::proportional(13.0), true),
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if let Some(percent) = shown_at {
@@ -50,6 +45,15 @@ pub(super) fn show(
         .inner
     })
     .inner
+}
+
+/// What is said while no pixel is pointed at.
+fn what_to_do(viewer: &Viewer) -> &'static str {
+    if viewer.scene_list().current().is_none_or(SceneEntry::has_no_picture) {
+        "? shows all keys"
+    } else {
+        "point at a pixel; right click explains it, ? shows all keys"
+    }
 }
 
 /// A word, unless there is no room for all of it.

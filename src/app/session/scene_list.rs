@@ -60,7 +60,12 @@ fn arrows_of_the_scenes_stay_under_the_pointer() {
 #[test]
 fn scene_without_a_picture_says_so() {
     let folder = folder();
+    let point = "point at a pixel";
+    let mut other = session(Vec::new(), [1280, 800]);
+    assert!(says(&mut other, point), "beside a picture");
     let mut session = session(vec![folder.path().join("4.svg")], [1280, 800]);
+    assert!(!says(&mut session, point), "there is none to point at");
+    assert!(says(&mut session, "? shows all keys"), "but there are keys");
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     right_click(&mut session, [500.0, 300.0]);
     assert!(!session.viewer.pixels().explains(), "there is nothing to explain");

@@ -120,11 +120,8 @@ impl<'a> Boarded<'a> {
     fn region(&self) -> Option<Region> {
         let layout = self.recipes.both.layout;
         let size = layout.frame_size();
-        let middle = || {
-            let [corner, size] = layout.free_part();
-            layout.nearest_in_frame(crate::viewer::view::pointer::window_pixel(corner + size / 2.0))
-        };
-        let at = self.recipes.pixels.pinned().or_else(middle)?;
+        let pixels = &self.recipes.pixels;
+        let at = pixels.pinned().or_else(|| pixels.middle())?;
         let side = self.board.side;
         let along = |axis: usize| {
             let length = side.min(size[axis]);

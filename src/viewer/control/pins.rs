@@ -118,7 +118,7 @@ impl Hand<'_> {
             .keep_pin_in_place(self.scene_list, &layout, &mut self.chrome.messages);
     }
 
-    /// Pins the hovered pixel; without one the pixel that the inspector shows. Whoever points at a pixel asks about it: the
+    /// Pins the hovered pixel; without one the pixel that the inspector shows, or the one in the middle. Whoever points at a pixel asks about it: the
     /// explanation opens, too, where it was closed. Only a pixel that is explained already is unpinned, and the inspector
     /// closes with it if the pin opened it.
     pub(in crate::viewer) fn pin_under_pointer(&mut self) {
@@ -127,7 +127,7 @@ impl Hand<'_> {
             // The magnifier's frame and its words show no pixel.
             return;
         }
-        let Some(pixel) = hovered.or_else(|| self.pixels().inspected()) else {
+        let Some(pixel) = self.pixels().asked_about() else {
             return;
         };
         if self.refuses_to_explain() {
@@ -175,7 +175,7 @@ impl Hand<'_> {
         }
         if self.pixels().pinned().is_some() {
             (self.inspector.magnifier.open, self.chrome.hidden) = (true, false);
-        } else if let Some(pixel) = self.pixels().hovered().or_else(|| self.pixels().inspected()) {
+        } else if let Some(pixel) = self.pixels().asked_about() {
             self.pin(pixel.map(i64::from));
         }
     }

@@ -73,6 +73,21 @@ impl Pointing<'_> {
         self.inspector.inspected_pixel(&self.both.layout)
     }
 
+    /// The pixel in the middle of what is free of the picture.
+    pub(in crate::viewer) fn middle(&self) -> Option<[u32; 2]> {
+        let layout = &self.both.layout;
+        let [corner, size] = layout.free_part();
+        layout.nearest_in_frame(window_pixel(corner + size / 2.0))
+    }
+
+    /// The pixel that a key asks about: the one under the pointer, else the one that the magnifier shows, else the one in the
+    /// middle. Where the pointer was last is nothing to be seen by itself.
+    pub(in crate::viewer) fn asked_about(&self) -> Option<[u32; 2]> {
+        let is_seen = self.inspector.inset.is_some() || self.pinned().is_some();
+        let inspected = || self.inspected().filter(|_| is_seen);
+        self.hovered().or_else(inspected).or_else(|| self.middle())
+    }
+
     /// Where the pinned pixel is to be seen in the window: in every pane that shows it.
     pub fn pinned_places(&self) -> Vec<PixelRect> {
         let Some([x, y]) = self.pinned() else {

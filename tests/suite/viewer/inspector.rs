@@ -367,6 +367,32 @@ fn inspector_explanation_goes_by_what_is_seen() {
     assert_eq!(session.viewer.pixels().pinned(), Some([120, 60]), "of the same pixel");
 }
 
+/// Where the pointer was last is not to be seen, unless the magnifier shows it.
+#[test]
+fn inspector_pins_the_middle_while_the_pointer_is_elsewhere() {
+    for key in ["Enter", "e"] {
+        let mut session = Session::open(&[TRIANGLES], [400, 300]);
+        session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.0, 50.0) }));
+        session.run(Command::Pointer(PointerCommand::Left));
+        session.keys(&[key]);
+        assert_eq!(
+            session.viewer.pixels().pinned(),
+            Some([200, 150]),
+            "the middle, by {key}"
+        );
+    }
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.0, 50.0) }));
+    session.keys(&["z"]);
+    session.run(Command::Pointer(PointerCommand::Left));
+    session.keys(&["Enter"]);
+    assert_eq!(
+        session.viewer.pixels().pinned(),
+        Some([100, 50]),
+        "the one that the magnifier shows"
+    );
+}
+
 /// A pin that leaves the window is not forgotten, and says where it went.
 #[test]
 fn inspector_says_that_the_pin_left_the_window() {

@@ -35,6 +35,7 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
         "Pins the pixel under the pointer and tells why it has its colour; again, unpins it",
         Group::Inspector,
     )
+    .more("While the pointer is elsewhere it is the pixel in the magnifier, or without one that in the middle")
     .keys(&[Chord::named(Key::Enter)])
     .run(&Command::Inspector(InspectorCommand::PinUnderPointer))
     .argument(arguments::PIN),

@@ -17,6 +17,7 @@ use egui::{
 
 use super::board_tiles::{BoardTiles, Grid, caption_lines, list};
 use super::controls::{command_button, tip};
+use super::corner::CardCorner;
 use super::focus::{self, FocusPanel};
 use super::look::CONTROL;
 use crate::color::ResolveSpace;
@@ -36,6 +37,7 @@ const CONTROLS: f32 = 660.0;
 #[derive(Debug, Default)]
 pub(super) struct BoardCard {
     tiles: BoardTiles,
+    corner: CardCorner,
     /// What stood above the tiles in the last pass, in points.
     above: f32,
     /// Whether the list of settings hung open in the last pass.
@@ -114,6 +116,7 @@ impl BoardCard {
                         });
                 });
             });
+        self.corner.drawn(ui.ctx(), area.response.rect);
         Some(area.response.rect)
     }
 

@@ -133,7 +133,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[
             SettingCommand {
                 takes_value: true,
-                more: "Below zero textures are sharper and shimmer, above zero they are blurred; level sampling zero has no level to change",
+                more: "Below zero textures are sharper and shimmer, above zero they are blurred; level sampling zero has no level to change, unless one is fixed",
                 ..SettingCommand::new(
                     "lod-bias",
                     "Level of detail bias",

@@ -54,7 +54,8 @@ impl Guess {
 }
 
 /// Finds what makes the picture of `subject` most like `other`, a picture of the same scene by another renderer. Draws
-/// the scene some hundred times at the size of `other`, for as long as `budget` allows. `None` once `cancel` says so.
+/// the scene at the size of `other` some hundred times, at most 600, for as long as `budget` allows; no more once the picture is
+/// the other, byte by byte. `None` once `cancel` says so.
 pub fn guess(subject: &Subject<'_>, other: &Framebuffer, budget: Duration, cancel: &CancelToken) -> Option<Guess> {
     let trial = Trial { subject, other, cancel };
     let mut search = Search::new(&trial, budget)?;
@@ -117,13 +118,14 @@ impl<'a> Search<'a> {
         let mut beam: Vec<Vec<Cause>> = vec![Vec::new()];
         for count in 0..MAX_CAUSES {
             let mut next: Vec<(u64, Vec<Cause>)> = Vec::new();
-            for (set, cause) in beam
-                .iter()
-                .flat_map(|set| causes.iter().map(move |cause| (set, *cause)))
-            {
-                let together = [set.as_slice(), &[cause]].concat();
+            let readings = if count == 1 { readings(&causes) } else { Vec::new() };
+            let sets = beam.iter().flat_map(|set| {
+                let fitting = causes.iter().filter(|cause| cause.goes_with(set));
+                fitting.map(move |cause| [set.as_slice(), &[*cause]].concat())
+            });
+            for together in readings.into_iter().chain(sets) {
                 let known = next.iter().any(|(_, known)| is_same(known, &together));
-                if known || !cause.goes_with(set) || !self.makes_sense(&together) {
+                if known || !self.makes_sense(&together) {
                     continue;
                 }
                 if self.is_exact() {
@@ -137,11 +139,15 @@ impl<'a> Search<'a> {
                 let least = errors.iter().map(|(error, _)| *error).min().unwrap_or(u64::MAX);
                 next.push((least, together));
             }
-            if self.is_all_but_exact() {
-                return Some(());
-            }
             next.sort_by_key(|(error, _)| *error);
             beam.clear();
+            if self.is_all_but_exact() {
+                // One sampling of textures may look like a pair of others, which are tried yet, but nothing else.
+                if count == 0 {
+                    continue;
+                }
+                return Some(());
+            }
             for (_, set) in next {
                 // The best of a kind: two shifts are better than no sample rate, but each goes with others.
                 let is_new = beam.iter().all(|known| !is_akin(known, &set));
@@ -229,7 +235,9 @@ impl<'a> Search<'a> {
                 let times = if fewer == 0 { count } else { 1 };
                 error as f64 <= (0..times).fold(error_of_fewer as f64, |error, _| error * MARGIN)
             };
-            if error < before && fewer.all(is_far_below) {
+            // Of two that leave nothing, that with fewer is enough.
+            let is_less = fewer.clone().all(|(_, error_of_fewer)| error < error_of_fewer);
+            if is_less && fewer.all(is_far_below) {
                 chosen = count;
             }
         }
@@ -249,6 +257,16 @@ impl<'a> Search<'a> {
             stopped: self.stopped,
         }
     }
+}
+
+/// The pairs of a pixel and a level sampling, at most 20. All of them are tried: each of the two hides what the other does, so
+/// that neither needs to be the best of its kind alone.
+fn readings(causes: &[Cause]) -> Vec<Vec<Cause>> {
+    let levels = || causes.iter().filter(|cause| matches!(cause, Cause::LevelSampling(_)));
+    let pixels = causes.iter().filter(|cause| matches!(cause, Cause::PixelSampling(_)));
+    pixels
+        .flat_map(|pixel| levels().map(|level| vec![*pixel, *level]))
+        .collect()
 }
 
 /// Whether two lists hold the same causes.
@@ -304,8 +322,8 @@ mod tests {
     use crate::geometry::View;
     use crate::raster::PixelCoverage;
     use crate::render::{self, RenderSettings};
-    use crate::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, ShapeId, TextureId};
-    use crate::texture::Texture;
+    use crate::scene::{self, Dialect, DialectChoice, Paint, Primitive, PrimitiveKind, Scene, ShapeId, TextureId};
+    use crate::texture::{LevelSampling, PixelSampling, Texture};
 
     const SIZE: [u32; 2] = [64, 48];
 
@@ -431,6 +449,44 @@ mod tests {
             let guess =
                 guess(&subject, &other, Duration::from_mins(2), &CancelToken::default()).expect("not cancelled");
             assert_eq!((guess.causes.as_slice(), guess.after), (causes, 0), "{guess:?}");
+        }
+    }
+
+    #[test]
+    fn hypotheses_tell_pixel_from_level_sampling() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/25_few_texels.svg");
+        let scene = scene::load(&path, DialectChoice::Course).expect("a scene of the gallery");
+        let size = [40, 40];
+        let view = View::Canvas.transform(scene.canvas, size);
+        let settings = RenderSettings::default();
+        for (level_sampling, pixel_sampling) in [
+            (LevelSampling::Linear, PixelSampling::Bilinear),
+            (LevelSampling::Nearest, PixelSampling::Bilinear),
+            (LevelSampling::Nearest, PixelSampling::Mitchell),
+            (LevelSampling::Linear, PixelSampling::Mitchell),
+        ] {
+            let drawn = RenderSettings {
+                pixel_sampling,
+                level_sampling,
+                ..settings
+            };
+            let mut other = Framebuffer::new(size[0], size[1]);
+            render::draw(&scene, &view, &drawn, &mut other);
+            let subject = Subject {
+                scene: &scene,
+                view: &view,
+                settings: &settings,
+            };
+            let guess =
+                guess(&subject, &other, Duration::from_mins(2), &CancelToken::default()).expect("not cancelled");
+            let causes = [
+                Cause::LevelSampling(level_sampling),
+                Cause::PixelSampling(pixel_sampling),
+            ];
+            assert!(
+                is_same(&guess.causes, &causes) && guess.after == 0,
+                "{causes:?}: {guess:?}"
+            );
         }
     }
 

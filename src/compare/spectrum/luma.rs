@@ -49,8 +49,9 @@ impl LumaPlane {
     }
 }
 
+/// That of a pixel.
 #[expect(clippy::cast_possible_truncation, reason = "from 0 to 255")]
-fn luma(pixel: u32) -> f32 {
+pub(super) fn luma(pixel: u32) -> f32 {
     ProfileChannel::Luma.value(pixel) as f32
 }
 

@@ -13,6 +13,7 @@
 //! middle.
 
 mod colors;
+mod finer;
 mod folding;
 mod fourier;
 mod luma;
@@ -20,9 +21,8 @@ mod waves;
 
 use glam::{DAffine2, DVec2};
 
-use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, Region, ResolveFilter, SamplePattern, SampleRate};
-use crate::render::{CancelToken, RenderSettings, Subject, draw_regions};
+use crate::raster::{Framebuffer, Region};
+use crate::render::{CancelToken, Subject, draw_regions};
 use crate::texture::MipLevel;
 
 pub use colors::{DECIBELS, scale_color};
@@ -61,8 +61,16 @@ impl SpectrumOf {
     }
 }
 
-/// By how many cycles per pixel waves are finer that pixels cannot tell from one in the box.
-const AWAY: [[i64; 2]; 8] = [[-1, -1], [0, -1], [1, -1], [-1, 0], [1, 0], [-1, 1], [0, 1], [1, 1]];
+/// By how many whole cycles per pixel along an axis waves are finer that are looked for where pixels cannot tell them from one in
+/// the box: as far as the scene's spectrum reaches.
+const TURNS: std::ops::RangeInclusive<i64> = -2..=2;
+
+/// Where the scene's spectrum has a wave that lands somewhere in the box.
+#[derive(Clone, Copy)]
+struct FinerPlace {
+    order: [i64; 2],
+    band: Band,
+}
 
 /// Spectra of what a picture shows, and the scene's beside them.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +93,7 @@ pub struct SpectrumReading {
     pub in_pixels: [f64; 2],
     /// Where pixels that read one point each see it, in cycles per pixel, where that is elsewhere.
     pub lands: Option<[f64; 2]>,
-    /// The strongest finer wave of the scene that lands here, and the part of this one's power that such waves account for,
+    /// The strongest finer wave of the scene that lands here, unless it may be none of the scene's, and the part of this one's power that such waves account for,
     /// `0.0..=1.0`.
     pub source: Option<(Wave, f64)>,
 }
@@ -93,10 +101,6 @@ pub struct SpectrumReading {
 impl SpectrumAnalysis {
     /// The longest side that is transformed, in pixels or texels: of more, the middle is.
     pub const LONGEST: u32 = 512;
-    /// Into how many finer ones a pixel's side is divided for the scene's spectrum.
-    const FINENESS: u32 = 3;
-    /// Samples of each of those: 144 for a pixel.
-    const SAMPLES: u32 = 16;
 
     /// The middle of `region`, with sides that are transformed.
     pub fn middle_of(region: Region) -> Region {
@@ -129,7 +133,7 @@ impl SpectrumAnalysis {
     /// The same of the scene, before pixels sample it: up to one and a half cycles per pixel.
     pub fn of_scene(subject: &Subject<'_>, size: [u32; 2], region: Region) -> Option<Self> {
         let region = within(size, region)?;
-        let own = scene(subject, region)?;
+        let own = finer::scene(subject, region)?;
         Some(Self {
             of: SpectrumOf::Scene,
             region,
@@ -161,14 +165,14 @@ impl SpectrumAnalysis {
         Self {
             of,
             region,
-            own: Spectrum::of(plane, 1),
+            own: Spectrum::of(plane),
             scene: None,
             placed: from_corner(region),
         }
     }
 
     fn beside_scene(self, subject: &Subject<'_>) -> Option<Self> {
-        let scene = Some(scene(subject, self.region)?);
+        let scene = Some(finer::scene(subject, self.region)?);
         Some(Self { scene, ..self })
     }
 
@@ -229,12 +233,11 @@ impl SpectrumAnalysis {
         let wave = self.own.wave(order);
         let in_pixels = self.in_pixels(order);
         let lands = Band::of(in_pixels).map(|_| folded(in_pixels));
-        let source = self.finer(order).map(|(scene, places)| {
-            let strongest = places
-                .into_iter()
-                .max_by(|a, b| scene.power(*a).total_cmp(&scene.power(*b)));
+        let source = self.finer(order).and_then(|(scene, places)| {
+            let orders = places.map(|place| place.order);
+            let strongest = orders.max_by(|a, b| scene.power(*a).total_cmp(&scene.power(*b)))?;
             let part = self.shares(order).iter().sum();
-            (scene.wave(strongest.unwrap_or(order)), part)
+            (!scene.may_be_ghost(strongest)).then(|| (scene.wave(strongest), part))
         });
         SpectrumReading {
             wave,
@@ -255,14 +258,26 @@ impl SpectrumAnalysis {
     }
 
     /// Of a place inside of the box the places of the finer waves that land there, and the scene that has them.
-    fn finer(&self, order: [i64; 2]) -> Option<(&Spectrum, [[i64; 2]; 8])> {
+    fn finer(&self, order: [i64; 2]) -> Option<(&Spectrum, impl Iterator<Item = FinerPlace> + Clone)> {
         let scene = match self.of {
             SpectrumOf::Scene => Some(&self.own).filter(|own| Band::of(own.frequency(order)).is_none()),
             _ => self.scene.as_ref(),
         }?;
-        let [across, down] = scene.size().map(i64::from);
-        let away = |[x, y]: [i64; 2]| [order[0] + x * across, order[1] + y * down];
-        Some((scene, AWAY.map(away)))
+        let size = scene.size().map(i64::from);
+        let turns = TURNS.flat_map(|y| TURNS.map(move |x| [x, y]));
+        let places = turns.filter_map(move |turns| {
+            let band = match turns {
+                [0, 0] => return None,
+                [_, 0] => Band::Across,
+                [0, _] => Band::Down,
+                _ => Band::Both,
+            };
+            Some(FinerPlace {
+                order: [0, 1].map(|axis| order[axis] + turns[axis] * size[axis]),
+                band,
+            })
+        });
+        Some((scene, places))
     }
 
     /// What of the power at a place comes from each band, in parts of it. The bands' parts are as the powers in the scene of the
@@ -273,14 +288,13 @@ impl SpectrumAnalysis {
             return Band::ALL.map(|other| if band == Some(other) { 1.0 } else { 0.0 });
         };
         let mut powers = [0.0; 3];
-        for (place, [x, y]) in places.into_iter().zip(AWAY) {
-            let band = match [x != 0, y != 0] {
-                [true, true] => Band::Both,
-                [true, false] => Band::Across,
-                _ => Band::Down,
-            };
+        for place in places {
             for (power, other) in powers.iter_mut().zip(Band::ALL) {
-                *power += if band == other { scene.power(place) } else { 0.0 };
+                *power += if place.band == other {
+                    scene.power(place.order)
+                } else {
+                    0.0
+                };
             }
         }
         let finer: f64 = powers.iter().sum();
@@ -302,7 +316,7 @@ impl SpectrumAnalysis {
         let own = self.own.power(order);
         match (self.of, self.finer(order)) {
             (SpectrumOf::Scene, Some((scene, places))) => {
-                own + places.map(|place| scene.power(place)).iter().sum::<f64>()
+                own + places.map(|place| scene.power(place.order)).sum::<f64>()
             }
             _ => own,
         }
@@ -325,32 +339,6 @@ fn drawn(subject: &Subject<'_>, size: [u32; 2], region: Region) -> Option<LumaPl
     let mut frame = Framebuffer::new(size[0], size[1]);
     draw_regions(subject, &mut frame, &[region], &CancelToken::default())?;
     Some(LumaPlane::of_frame(&frame, region))
-}
-
-/// The scene's spectrum in a region of the picture, from finer pixels of their own, each the mean of what it covers. What is as
-/// thin as a pixel by definition, such as the course's lines, is as thin as a finer one there.
-fn scene(subject: &Subject<'_>, region: Region) -> Option<Spectrum> {
-    const FINENESS: u32 = SpectrumAnalysis::FINENESS;
-    let view = ViewTransform {
-        scene_to_pixels: DAffine2::from_scale(DVec2::splat(f64::from(FINENESS)))
-            * from_corner(region)
-            * subject.view.scene_to_pixels,
-    };
-    let settings = RenderSettings {
-        sample_rate: SampleRate::new(SpectrumAnalysis::SAMPLES)?,
-        pattern: SamplePattern::Grid,
-        resolve_filter: ResolveFilter::Box,
-        filter_radius: None,
-        ..subject.settings.truth()
-    };
-    let finer = Subject {
-        scene: subject.scene,
-        view: &view,
-        settings: &settings,
-    };
-    let size = [region.width, region.height].map(|side| side * FINENESS);
-    let plane = drawn(&finer, size, Region::of_size(size))?;
-    Some(Spectrum::of(plane, FINENESS))
 }
 
 #[expect(

@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::geometry::View;
+use crate::raster::SampleRate;
+use crate::render::RenderSettings;
 use crate::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
 
 const SIZE: [u32; 2] = [160, 120];
@@ -17,6 +19,10 @@ fn stripes(frequency: f64) -> Scene {
           <rect x="-10" y="-10" width="180" height="140" fill="url(#g)"/>
         </svg>"##
     );
+    read(&text)
+}
+
+fn read(text: &str) -> Scene {
     let options = ReadOptions {
         dialect: DialectChoice::Svg,
     };
@@ -77,6 +83,35 @@ fn scene_has_its_frequency_and_the_frame_its_alias() {
     assert_eq!(near, found, "what is pointed at nearly");
     let near = frame.strongest_near([0.35, 0.0], 0.025).expect("in the box");
     assert_ne!(near, found, "but not from afar");
+}
+
+#[test]
+fn no_wave_is_named_that_comes_back_from_finer_ones() {
+    // Of bars of 0.625 cycles per pixel there are 1.875 and 3.125, which a grid of three points per pixel takes for 1.125 and
+    // 0.125.
+    let bar = |index: u32| format!(r#"<rect x="{}" width=".8" height="64"/>"#, f64::from(index) * 1.6);
+    let bars: String = (0..40).map(bar).collect();
+    let text = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="64" height="64">{bars}</svg>"#);
+    let scene = read(&text);
+    let view = View::Canvas.transform(scene.canvas, [64, 64]);
+    let settings = at_rate(1);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &settings,
+    };
+    let region = Region::of_size([64, 64]);
+    let own = SpectrumAnalysis::of_scene(&subject, [64, 64], region).expect("pixels");
+    let peaks = own.peaks(9);
+    assert_eq!(peaks.len(), 1, "no ghosts: {peaks:?}");
+    assert!((peaks[0].wave.frequency[0] - 0.625).abs() < 1e-9, "{peaks:?}");
+    let frame = SpectrumAnalysis::of_frame(&subject, [64, 64], region).expect("pixels");
+    let third = frame.at([0.125, 0.0]).expect("in the box");
+    let (source, part) = third.source.expect("a scene beside it");
+    assert!(
+        (source.frequency[0].abs() - 1.875).abs() < 1e-9 && part > 0.9,
+        "{third:?}"
+    );
 }
 
 #[test]

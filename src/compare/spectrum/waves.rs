@@ -3,7 +3,7 @@
 //! A wave of a whole number of periods across the picture reads its own amplitude (and its neighbours a half of it, which is
 //! Hann's window); one between two such frequencies reads up to 1.4 dB less along each axis.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use rustfft::num_complex::Complex;
 
@@ -75,16 +75,21 @@ pub(super) fn decibels(amplitude: f64) -> f64 {
 pub(super) struct Spectrum {
     /// Columns and rows in pixels.
     size: [u32; 2],
-    /// Numbers in a pixel along each axis.
+    /// How many times as many frequencies it has along each axis as pixels can show.
     fineness: u32,
+    /// The same of those that are shown.
+    shown: u32,
+    /// As strong a wave may be a ghost: its amplitude.
+    ghosts: f64,
+    /// Where the place lies from which phases count, in pixels from the corner along each axis.
+    origin: f64,
     /// Amplitude and phase of each frequency, in the order of [`transform`].
     waves: Vec<Complex<f32>>,
 }
 
 impl Spectrum {
-    /// That of a plane with so many numbers in a pixel along each axis, without its mean. Where there are several, each is the
-    /// mean over its square: what that takes from a wave is given back.
-    pub(super) fn of(mut plane: LumaPlane, fineness: u32) -> Self {
+    /// That of a plane with one number in a pixel, without its mean.
+    pub(super) fn of(mut plane: LumaPlane) -> Self {
         let counts = plane.size.map(|side| side as usize);
         let [across, down] = counts.map(hann);
         let weights = || {
@@ -102,33 +107,46 @@ impl Spectrum {
             *value = (*value - mean) * weight;
         }
         let waves = transform(&plane.values, counts[0]);
-        let size = plane.size.map(|side| side / fineness.max(1));
-        let mut spectrum = Self { size, fineness, waves };
-        spectrum.scale(2.0 / gain.max(f64::MIN_POSITIVE));
+        #[expect(clippy::cast_possible_truncation, reason = "of sums")]
+        let scale = (2.0 / gain.max(f64::MIN_POSITIVE)) as f32;
+        let mut spectrum = Self {
+            size: plane.size,
+            fineness: 1,
+            shown: 1,
+            ghosts: 0.0,
+            origin: 0.5,
+            waves: waves.into_iter().map(|wave| wave * scale).collect(),
+        };
+        spectrum.count_own_mirrors_once();
         spectrum
     }
 
-    /// Makes amplitudes of sums.
-    fn scale(&mut self, scale: f64) {
-        let factors = [0, 1].map(|axis| -> Vec<f64> {
-            let orders = 0..self.count(axis);
-            let side = self.count(axis) as f64;
-            // Of the higher half the frequencies are those below zero, for which it is the same.
-            let kept = |order: i64| sinc(order.min(self.count(axis) - order) as f64 / side);
-            let fine = self.fineness > 1;
-            orders
-                .map(|order| if fine { kept(order).recip() } else { 1.0 })
-                .collect()
-        });
-        let [across, down] = &factors;
-        let factors = across
-            .iter()
-            .flat_map(|across| down.iter().map(move |down| across * down));
-        for (wave, factor) in self.waves.iter_mut().zip(factors) {
-            #[expect(clippy::cast_possible_truncation, reason = "a few at most")]
-            let factor = (factor * scale) as f32;
-            *wave *= factor;
+    /// That of so many pixels, of amplitudes and phases of `fineness` times as many frequencies along each axis.
+    pub(super) fn of_finer(waves: Vec<Complex<f32>>, size: [u32; 2], fineness: u32) -> Self {
+        Self {
+            size,
+            fineness,
+            shown: 3,
+            ghosts: 0.0,
+            origin: 0.0,
+            waves,
         }
+    }
+
+    /// The same where waves of so small an amplitude may be ghosts.
+    pub(super) fn with_ghosts(self, amplitude: f32) -> Self {
+        Self {
+            ghosts: f64::from(amplitude),
+            ..self
+        }
+    }
+
+    /// Whether the wave with so many periods across the picture may be a ghost of one that is finer than all of these.
+    pub(super) fn may_be_ghost(&self, order: [i64; 2]) -> bool {
+        self.ghosts > 0.0 && self.power(order) <= self.ghosts * self.ghosts
+    }
+
+    fn count_own_mirrors_once(&mut self) {
         // A wave that is its own mirror image is there once, and not as two halves.
         let own_mirrors = [0, 1].map(|axis| [0, self.count(axis) / 2]);
         for order in [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]: [usize; 2]| [own_mirrors[0][x], own_mirrors[1][y]]) {
@@ -144,19 +162,19 @@ impl Spectrum {
         self.size
     }
 
-    /// The highest frequency that it knows along an axis, in cycles per pixel.
+    /// The highest frequency that is shown along an axis, in cycles per pixel.
     pub(super) fn reach(&self) -> f64 {
-        f64::from(self.fineness) / 2.0
+        f64::from(self.shown) / 2.0
     }
 
-    /// How many frequencies it has along an axis.
+    /// How many frequencies it has along an axis, shown or not.
     fn count(&self, axis: usize) -> i64 {
         i64::from(self.size[axis] * self.fineness)
     }
 
-    /// Numbers of periods across the picture along an axis, from the lowest.
+    /// Numbers of periods across the picture along an axis, from the lowest that is shown.
     pub(super) fn orders(&self, axis: usize) -> std::ops::Range<i64> {
-        let count = self.count(axis);
+        let count = i64::from(self.size[axis] * self.shown);
         -(count / 2)..count - count / 2
     }
 
@@ -165,14 +183,14 @@ impl Spectrum {
         [0, 1].map(|axis| order[axis] as f64 / f64::from(self.size[axis].max(1)))
     }
 
-    /// The nearest number of periods, as long as the spectrum reaches so far.
+    /// The nearest number of periods, as long as it is shown.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "`as` saturates, and the range is checked"
     )]
     pub(super) fn order(&self, frequency: [f64; 2]) -> Option<[i64; 2]> {
         let order = [0, 1].map(|axis| (frequency[axis] * f64::from(self.size[axis])).round() as i64);
-        let known = |axis: usize| order[axis].abs() <= self.count(axis) / 2;
+        let known = |axis: usize| order[axis].abs() <= i64::from(self.size[axis] * self.shown) / 2;
         (known(0) && known(1) && !self.waves.is_empty()).then_some(order)
     }
 
@@ -196,16 +214,16 @@ impl Spectrum {
         let frequency = self.frequency(order);
         let [index, _] = self.indices(order);
         let phase = self.waves.get(index).map_or(0.0, |wave| f64::from(wave.arg()));
-        // Numbers stand for the middles of their squares.
-        let half = frequency[0].midpoint(frequency[1]) / f64::from(self.fineness.max(1));
+        let turns = (frequency[0] + frequency[1]) * self.origin;
         Wave {
             frequency,
             amplitude: self.power(order).sqrt(),
-            phase: phase - TAU * half,
+            phase: phase - TAU * turns,
         }
     }
 
-    /// The strongest waves, at most `count`, the strongest first, of each and its mirror image one; slow shading is none.
+    /// The strongest waves, at most `count`, the strongest first, of each and its mirror image one; slow shading is none, nor
+    /// is what may be a ghost.
     pub(super) fn peaks(&self, count: usize) -> Vec<[i64; 2]> {
         let places = || {
             let rows = self.orders(1);
@@ -219,7 +237,9 @@ impl Spectrum {
         let most = powers.clone().fold(0.0, |most: f64, (power, _)| most.max(power));
         let least = (decibels(most.sqrt()) - WEAKER).max(WEAKEST);
         let mut found: Vec<(f64, [i64; 2])> = powers
-            .filter(|(power, order)| decibels(power.sqrt()) >= least && self.is_peak(*order, *power))
+            .filter(|(power, order)| {
+                decibels(power.sqrt()) >= least && !self.may_be_ghost(*order) && self.is_peak(*order, *power)
+            })
             .collect();
         found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let mut peaks: Vec<[i64; 2]> = Vec::new();
@@ -258,12 +278,10 @@ fn to_right([x, y]: [i64; 2]) -> [i64; 2] {
     if x < 0 || (x == 0 && y < 0) { [-x, -y] } else { [x, y] }
 }
 
-fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-9 { 1.0 } else { (PI * x).sin() / (PI * x) }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     /// A wave of `frequency` in cycles per pixel, read in the middles of pixels.
@@ -279,7 +297,7 @@ mod tests {
     }
 
     fn strongest(plane: LumaPlane) -> Wave {
-        let spectrum = Spectrum::of(plane, 1);
+        let spectrum = Spectrum::of(plane);
         let peaks = spectrum.peaks(5);
         assert_eq!(peaks.len(), 1, "one wave: {peaks:?}");
         spectrum.wave(peaks[0])
@@ -328,7 +346,7 @@ mod tests {
 
     #[test]
     fn constant_has_no_waves() {
-        let spectrum = Spectrum::of(grating([33, 20], [0.0, 0.0], 70.0, 0.0), 1);
+        let spectrum = Spectrum::of(grating([33, 20], [0.0, 0.0], 70.0, 0.0));
         let all = spectrum.orders(1).flat_map(|y| spectrum.orders(0).map(move |x| [x, y]));
         let most = all.map(|order| spectrum.power(order)).fold(0.0, f64::max);
         assert!(most < 1e-6, "{most}");
@@ -346,7 +364,7 @@ mod tests {
         let values: Vec<f32> = (0..size[0] * size[1]).map(|_| noise()).collect();
         let mean = values.iter().sum::<f32>() / values.len() as f32;
         let variance = values.iter().map(|value| f64::from(value - mean).powi(2)).sum::<f64>() / values.len() as f64;
-        let spectrum = Spectrum::of(LumaPlane { size, values }, 1);
+        let spectrum = Spectrum::of(LumaPlane { size, values });
         let all = spectrum.orders(1).flat_map(|y| spectrum.orders(0).map(move |x| [x, y]));
         let power: f64 = all.map(|order| spectrum.power(order)).sum();
         // Half of a wave's squared amplitude is its power, in two halves; Hann's squares have a mean of 3/8, its own a quarter.
@@ -356,7 +374,7 @@ mod tests {
 
     #[test]
     fn spectrum_is_symmetrical_and_repeats() {
-        let spectrum = Spectrum::of(grating([20, 15], [0.23, 0.11], 60.0, 1.0), 1);
+        let spectrum = Spectrum::of(grating([20, 15], [0.23, 0.11], 60.0, 1.0));
         for [x, y] in [[3, 2], [-7, 5], [9, -4]] {
             let power = spectrum.power([x, y]);
             assert!(
@@ -371,29 +389,25 @@ mod tests {
     }
 
     #[test]
-    fn finer_numbers_reach_farther_and_keep_amplitudes() {
-        // Means over thirds of a pixel.
-        #[expect(clippy::cast_possible_truncation, reason = "a part of one")]
-        let kept = sinc(0.4) as f32;
-        let mut plane = grating([120, 90], [0.4, 0.0], 40.0, 0.0);
-        for value in &mut plane.values {
-            *value = 100.0 + (*value - 100.0) * kept;
+    fn finer_waves_reach_farther_than_is_shown() {
+        let (size, fineness) = ([20, 15], 6);
+        let mut waves = vec![Complex::default(); 120 * 90];
+        for (order, amplitude) in [([24, 0], 40.0), ([44, 3], 60.0)] {
+            let [x, y]: [usize; 2] = order;
+            waves[x * 90 + y] = Complex::from_polar(amplitude, 0.5);
+            waves[(120 - x) * 90 + (90 - y) % 90] = Complex::from_polar(amplitude, -0.5);
         }
-        let spectrum = Spectrum::of(plane, 3);
+        let spectrum = Spectrum::of_finer(waves, size, fineness);
         assert_near(spectrum.reach(), 1.5, "in cycles per pixel");
-        let peaks = spectrum.peaks(4);
-        let found = spectrum.wave(peaks[0]);
-        assert_near(found.frequency[0], 1.2, "three times 0.4");
-        assert!(
-            (found.amplitude - 40.0).abs() < 0.02,
-            "what the means took is back: {}",
-            found.amplitude
-        );
-        assert_near(
-            found.value_at([1.0 / 6.0, 0.2]) / found.amplitude,
-            (TAU * 0.4 * 0.5).cos(),
-            "in pixels",
-        );
+        assert_eq!(spectrum.peaks(4), [[24, 0]], "what is shown");
+        let found = spectrum.wave([24, 0]);
+        assert_near(found.frequency[0], 1.2, "24 periods in 20 pixels");
+        assert_near(found.value_at([0.0, 0.2]), 40.0 * 0.5_f64.cos(), "from the corner");
+        assert_near(spectrum.wave([-44, -3]).amplitude, 60.0, "beyond, for those that ask");
+        assert_eq!(spectrum.order([2.2, 0.2]), None, "which is not shown");
+        let spectrum = spectrum.with_ghosts(50.0);
+        assert!(spectrum.peaks(4).is_empty(), "it may be a ghost");
+        assert!(!spectrum.may_be_ghost([44, 3]), "too strong for one");
     }
 
     #[test]

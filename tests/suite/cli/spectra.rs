@@ -54,6 +54,44 @@ fn spectrum_tells_an_alias_and_whence_it_is() {
     assert!((weaker - 8.68).abs() < 0.3, "the box takes {weaker} dB");
 }
 
+/// Upright black bars of half a pitch on 64 pixels of white: waves of one, three, five ... periods in each pitch, and no others.
+fn bars(folder: &Path, pitch: f64) -> serde_json::Value {
+    let bar = |index: u32| {
+        let at = f64::from(index) * pitch;
+        format!(r#"<rect x="{at}" width="{}" height="64"/>"#, pitch / 2.0)
+    };
+    let bars: String = (0..64).map(bar).collect();
+    let text = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="64" height="64">{bars}</svg>"#);
+    fs::write(folder.join("bars.svg"), text).unwrap();
+    let words = ["spectrum", "bars.svg", "--json", "--size=64x64", "--view=canvas"];
+    let [frame, scene] = ["--of=frame", "--of=scene"].map(|of| {
+        let said = done(folder, &[&words[..], &[of, "--peaks=4"]].concat());
+        serde_json::from_str::<serde_json::Value>(&said).unwrap()["peaks"].clone()
+    });
+    serde_json::json!({ "frame": frame, "scene": scene })
+}
+
+#[test]
+fn spectrum_names_no_wave_that_the_scene_does_not_have() {
+    let folder = tempfile::tempdir().unwrap();
+    for (pitch, first, alias) in [(1.6, 0.625, 0.125), (1.0 / 0.703_125, 0.703_125, 0.109_375)] {
+        let found = bars(folder.path(), pitch);
+        let scene = found["scene"].as_array().unwrap();
+        assert_eq!(
+            scene.len(),
+            1,
+            "{pitch}: its third wave is beyond what is shown: {scene:?}"
+        );
+        assert_near(numbers(&scene[0]["frequency"]), [first, 0.0], "its first");
+        let mut peaks = found["frame"].as_array().unwrap().iter();
+        let third = peaks.find(|peak| (numbers(&peak["frequency"])[0] - alias).abs() < 0.006);
+        let third = third.unwrap_or_else(|| panic!("{pitch}: no alias of the third wave in {found}"));
+        let [x, y] = numbers(&third["from"]);
+        assert_near([x.abs(), y], [3.0 * first, 0.0], "its third");
+        assert!(third["alias"].as_f64().unwrap() > 0.9, "wholly: {third}");
+    }
+}
+
 #[test]
 fn spectrum_of_the_difference_is_what_the_truth_has_not() {
     let own = report(&["--of=difference", "--sample-rate=256", "--pattern=hammersley"]);

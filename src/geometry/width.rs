@@ -34,8 +34,8 @@ pub fn width_in_window(triangles: impl Iterator<Item = [DVec2; 3]>, window: [DVe
 /// The width of a part of the triangles of a polygon, all of which lie in a window: of the widest part that touches the pixel in the
 /// middle of that, which has a margin of `around` on each side. `None` where there is nothing.
 ///
-/// Parts hang together by corners. One that is convex is as wide as [`width_in_window`] says. A curved strip is less wide than the
-/// hull around it: its width is twice its area over the length of its border, as far as that is not the window's.
+/// Parts hang together by corners. One that is convex is as wide as [`width_in_window`] says. Others, such as a curved strip, are less
+/// wide than the hull around them: as wide as the widest disc in them.
 pub fn width_of_part(triangles: &[[DVec2; 3]], window: [DVec2; 2], around: f64) -> Option<f64> {
     let pixel = [window[0] + around, window[1] - around];
     let (mut touching, mut beside): (Option<f64>, Option<f64>) = (None, None);
@@ -97,37 +97,101 @@ fn width_of(part: &[[DVec2; 3]], window: [DVec2; 2]) -> Option<f64> {
         .windows(2)
         .map(|edge| (edge[0] - hull[0]).perp_dot(edge[1] - hull[0]));
     let of_hull = fan.sum::<f64>().abs() / 2.0;
-    let border = border_of(part, window);
-    // Of a strip as wide as the window there may be no border at all.
-    let is_strip = area < of_hull * CONVEX && border > 0.0;
-    Some(if is_strip {
-        across.min(2.0 * area / border)
-    } else {
-        across
-    })
+    if area >= of_hull * CONVEX {
+        return Some(across);
+    }
+    Some(across.min(Inside::new(part, window).widest()))
 }
 
-/// The length of the border of some triangles that share whole edges, as far as it is not that of the window.
-fn border_of(part: &[[DVec2; 3]], [low, high]: [DVec2; 2]) -> f64 {
-    /// Corners on the window's border are rounded.
-    const ON_BORDER: f64 = 1e-6;
-    let mut edges = HashMap::new();
-    for [a, b, c] in part {
-        for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
-            let mut ends = [key(from), key(to)];
-            ends.sort_unstable();
-            edges.entry(ends).or_insert(([from, to], 0)).1 += 1;
+/// A part in a window, as discs that lie in it see it.
+struct Inside {
+    window: [DVec2; 2],
+    /// The edges of its border, but for those of the window, beyond which it may go on.
+    border: Vec<[DVec2; 2]>,
+    /// Places inside: in the middle of triangles, and of the edges between them.
+    middles: Vec<DVec2>,
+}
+
+impl Inside {
+    /// Of triangles that share whole edges.
+    fn new(part: &[[DVec2; 3]], window: [DVec2; 2]) -> Self {
+        /// Corners on the window's border are rounded.
+        const ON_BORDER: f64 = 1e-6;
+        let [low, high] = window;
+        let mut edges = HashMap::new();
+        for [a, b, c] in part {
+            for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
+                let mut ends = [key(from), key(to)];
+                ends.sort_unstable();
+                edges.entry(ends).or_insert(([from, to], 0)).1 += 1;
+            }
+        }
+        let is_on = |line: f64, ends: [f64; 2]| ends.into_iter().all(|end| (end - line).abs() < ON_BORDER);
+        let is_cut = |[from, to]: [DVec2; 2]| {
+            let (across, down) = ([from.x, to.x], [from.y, to.y]);
+            is_on(low.x, across) || is_on(high.x, across) || is_on(low.y, down) || is_on(high.y, down)
+        };
+        let mut middles: Vec<DVec2> = part.iter().map(|[a, b, c]| (*a + *b + *c) / 3.0).collect();
+        let mut border = Vec::new();
+        for ([from, to], count) in edges.into_values() {
+            if count % 2 == 0 {
+                middles.push(from.midpoint(to));
+            } else if !is_cut([from, to]) {
+                border.push([from, to]);
+            }
+        }
+        Self {
+            window,
+            border,
+            middles,
         }
     }
-    let is_on = |line: f64, ends: [f64; 2]| ends.into_iter().all(|end| (end - line).abs() < ON_BORDER);
-    let is_cut = |[from, to]: [DVec2; 2]| {
-        let (across, down) = ([from.x, to.x], [from.y, to.y]);
-        is_on(low.x, across) || is_on(high.x, across) || is_on(low.y, down) || is_on(high.y, down)
-    };
-    let own = edges
-        .into_values()
-        .filter(|(ends, count)| count % 2 == 1 && !is_cut(*ends));
-    own.map(|([from, to], _)| from.distance(to)).sum()
+
+    /// How far a place is from the border.
+    fn distance(&self, at: DVec2) -> f64 {
+        let squares = self.border.iter().map(|[from, to]| {
+            let (along, beside) = (*to - *from, at - *from);
+            let part = (beside.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            beside.distance_squared(along * part)
+        });
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// The diameter of the widest disc that is found in it: from the middles that are farthest from the border, up the hill.
+    fn widest(&self) -> f64 {
+        /// Distances that are measured at first, and hills that are climbed.
+        const MOST_MEASURED: usize = 2_000_000;
+        const CLIMBED: usize = 4;
+        let each = (self.middles.len() * self.border.len()).div_ceil(MOST_MEASURED).max(1);
+        let middles = self.middles.iter().step_by(each);
+        let mut starts: Vec<(f64, DVec2)> = middles.map(|at| (self.distance(*at), *at)).collect();
+        starts.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        starts.truncate(CLIMBED);
+        2.0 * starts.into_iter().map(|start| self.climbed(start)).fold(0.0, f64::max)
+    }
+
+    /// How far from the border a place is that is reached from another by steps that lead away from it. A step is shorter than the
+    /// distance, so that it does not leave the part.
+    fn climbed(&self, (mut radius, mut at): (f64, DVec2)) -> f64 {
+        const STEPS: usize = 64;
+        const DIRECTIONS: u32 = 8;
+        let mut step = 0.5;
+        for _ in 0..STEPS {
+            let around = (0..DIRECTIONS)
+                .map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(DIRECTIONS)));
+            let near = around.map(|toward| at + toward * radius * step);
+            let inside = near.filter(|at| at.cmpge(self.window[0]).all() && at.cmple(self.window[1]).all());
+            let best = inside
+                .map(|at| (self.distance(at), at))
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            match best {
+                Some((distance, place)) if distance > radius * 1.001 => (radius, at) = (distance, place),
+                _ if step > 0.05 => step /= 2.0,
+                _ => break,
+            }
+        }
+        radius
+    }
 }
 
 /// The corners of the convex hull of some points, in order around it: Andrew's monotone chain.
@@ -250,6 +314,16 @@ mod tests {
             at(0.0, 0.5),
         ];
         let width = width_of_contours(vec![joined], window, 2.0).expect("inside");
-        assert!((width - 0.2).abs() < 0.02, "around a corner: {width}");
+        assert!(
+            (0.2..0.24).contains(&width),
+            "around a corner, where a disc has some more room: {width}"
+        );
+        // A star of needles is thick in its middle.
+        let star = (0..48).map(|i| {
+            let reach = if i % 2 == 0 { 4.0 } else { 0.7 };
+            at(0.5, 0.5) + DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 48.0) * reach
+        });
+        let width = width_of_contours(vec![star.collect()], window, 2.0).expect("inside");
+        assert!((1.3..1.45).contains(&width), "the middle of a star: {width}");
     }
 }

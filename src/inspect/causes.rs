@@ -161,6 +161,10 @@ impl Explanation {
         let samples = TrueSamples::new(nearby, question.subject.settings);
         for missed in &mut self.missed {
             if missed.in_mask {
+                // Where nothing is masked, a mask is not painted.
+                if nearby.meets(missed.primitive, question.subject.settings) {
+                    continue;
+                }
                 let found = samples
                     .as_ref()
                     .and_then(|samples| samples.showing(&[missed.primitive]));

@@ -102,6 +102,13 @@ impl<'a> Nearby<'a> {
         Some(replay.samples.into_iter().map(|sample| sample.color).collect())
     }
 
+    /// Whether any of the pixel's own samples lies in a primitive, given by its index, wherever that counts.
+    pub fn meets(&self, primitive: u32, settings: &RenderSettings) -> bool {
+        let [x, y] = self.pixel;
+        let replay = self.list(&[primitive], settings).replay(x, y);
+        replay.is_some_and(|replay| replay.painted.iter().any(|op| op.source == primitive && op.count > 0))
+    }
+
     /// What paints some of the primitives.
     fn list(&self, primitives: &[u32], settings: &RenderSettings) -> DisplayList<'a> {
         let raster = raster_settings(settings);

@@ -45,6 +45,8 @@ pub(super) fn transform(values: &[f32], width: usize) -> Vec<Complex<f32>> {
 /// as [`transform`] would have them of a frame of `kept` pixels, but with phases that count from the frame's corner, and as
 /// amplitudes.
 pub(super) fn transform_low(frame: &Framebuffer, kept: [usize; 2]) -> Vec<Complex<f32>> {
+    /// Columns whose numbers lie in one line of a cache.
+    const TOGETHER: usize = 8;
     let [width, height] = [frame.width() as usize, frame.height() as usize];
     let mut planner = FftPlanner::new();
     let (along, down) = (planner.plan_fft_forward(width), planner.plan_fft_forward(height));
@@ -71,22 +73,30 @@ pub(super) fn transform_low(frame: &Framebuffer, kept: [usize; 2]) -> Vec<Comple
         },
     );
     let mut columns = vec![Complex::default(); half * kept[1]];
-    let outs = columns.par_chunks_exact_mut(kept[1]).zip(&turns[0]).enumerate();
-    outs.for_each_init(
-        || vec![Complex::default(); height],
-        |column, (u, (out, turn))| {
-            for (value, row) in column.iter_mut().zip(rows.chunks_exact(half)) {
-                *value = row[u];
+    let outs = columns
+        .par_chunks_mut(TOGETHER * kept[1])
+        .zip(turns[0].par_chunks(TOGETHER));
+    outs.enumerate().for_each_init(
+        || vec![Complex::default(); TOGETHER * height],
+        |memory, (group, (outs, turns_across))| {
+            let first = group * TOGETHER;
+            for (y, row) in rows.chunks_exact(half).enumerate() {
+                for (column, value) in memory.chunks_exact_mut(height).zip(&row[first..]) {
+                    column[y] = *value;
+                }
             }
-            down.process(column);
-            let (lower, higher) = out.split_at_mut(kept[1].div_ceil(2));
-            let below_zero = column.len() - higher.len();
-            let (lower, higher) = (
-                lower.iter_mut().zip(&*column),
-                higher.iter_mut().zip(&column[below_zero..]),
-            );
-            for ((wave, value), own) in lower.chain(higher).zip(&turns[1]) {
-                *wave = value * turn * own;
+            let outs = outs.chunks_exact_mut(kept[1]).zip(turns_across);
+            for (column, (out, turn)) in memory.chunks_exact_mut(height).zip(outs) {
+                down.process(column);
+                let (lower, higher) = out.split_at_mut(kept[1].div_ceil(2));
+                let below_zero = column.len() - higher.len();
+                let (lower, higher) = (
+                    lower.iter_mut().zip(&*column),
+                    higher.iter_mut().zip(&column[below_zero..]),
+                );
+                for ((wave, value), own) in lower.chain(higher).zip(&turns[1]) {
+                    *wave = value * turn * own;
+                }
             }
         },
     );

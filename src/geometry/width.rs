@@ -161,7 +161,7 @@ impl Inside {
     fn widest(&self) -> f64 {
         /// Distances that are measured at first, and hills that are climbed.
         const MOST_MEASURED: usize = 2_000_000;
-        const CLIMBED: usize = 4;
+        const CLIMBED: usize = 24;
         let each = (self.middles.len() * self.border.len()).div_ceil(MOST_MEASURED).max(1);
         let middles = self.middles.iter().step_by(each);
         let mut starts: Vec<(f64, DVec2)> = middles.map(|at| (self.distance(*at), *at)).collect();
@@ -174,7 +174,7 @@ impl Inside {
     /// distance, so that it does not leave the part.
     fn climbed(&self, (mut radius, mut at): (f64, DVec2)) -> f64 {
         const STEPS: usize = 64;
-        const DIRECTIONS: u32 = 8;
+        const DIRECTIONS: u32 = 16;
         let mut step = 0.5;
         for _ in 0..STEPS {
             let around = (0..DIRECTIONS)
@@ -186,7 +186,7 @@ impl Inside {
                 .max_by(|a, b| a.0.total_cmp(&b.0));
             match best {
                 Some((distance, place)) if distance > radius * 1.001 => (radius, at) = (distance, place),
-                _ if step > 0.05 => step /= 2.0,
+                _ if step > 0.01 => step /= 2.0,
                 _ => break,
             }
         }

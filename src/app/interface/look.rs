@@ -1,10 +1,7 @@
 //! How the panels look: sizes, type and colours of both themes, with and without the presenter look, set once per change.
 
 use egui::style::{ScrollFadeStyle, ScrollStyle};
-use egui::{
-    Align, Color32, Context, CornerRadius, FontFamily, FontId, Layout, Margin, Shadow, Stroke, TextStyle, Ui, Vec2,
-    vec2,
-};
+use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2, vec2};
 
 use crate::viewer::Theme;
 
@@ -174,7 +171,7 @@ pub(super) fn at_end<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let id = ui.scope_id().with("width at the end");
     let known: Option<f32> = ui.data(|data| data.get_temp(id));
     ui.add_space((ui.available_width() - known.unwrap_or_default()).max(0.0));
-    let shown = ui.allocate_ui_with_layout(Vec2::ZERO, Layout::left_to_right(Align::Center), contents);
+    let shown = ui.scope(contents);
     let width = shown.response.rect.width();
     if known != Some(width) {
         ui.data_mut(|data| data.insert_temp(id, width));

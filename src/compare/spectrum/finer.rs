@@ -17,10 +17,10 @@ use crate::render::{CancelToken, RenderSettings, Subject, draw_regions};
 
 /// How many times as many frequencies are kept along an axis as pixels can show: up to two and a half cycles per pixel.
 pub(super) const FINENESS: u32 = 5;
-/// Squares along a pixel's side in the two drawings, at least; some 170 in a pixel together. The first has no ghost of what is
-/// coarser than 8.8 cycles per pixel. They are far from the ratio of small numbers: only what is of single frequencies has its
+/// Squares along a pixel's side in the two drawings, at least; some 100 in a pixel together. The first has no ghost of what is
+/// coarser than 5.8 cycles per pixel. They are far from the ratio of small numbers: only what is of single frequencies has its
 /// ghosts in one place in both.
-const RATES: [f64; 2] = [11.3, 6.27];
+const RATES: [f64; 2] = [8.3, 5.1];
 
 /// How many times the power in the second drawing that of a ghost in the first is at least.
 const GHOST: f32 = 4.0;
@@ -65,7 +65,8 @@ fn strongest_ghost(waves: &[Complex<f32>], others: &[Complex<f32>], size: [u32; 
     ghosts.reduce(|| 0.0, f32::max).sqrt()
 }
 
-/// As many squares as a side of so many pixels is cut into at least; of small factors, for a quick transform.
+/// As many squares as a side of so many pixels is cut into at least; of small factors, for a quick transform, and of odd ones, since
+/// what people draw repeats in even numbers of pixels.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -75,7 +76,7 @@ fn squares(side: u32, rate: f64) -> u32 {
     let least = (f64::from(side) * rate).ceil() as u32;
     let is_smooth = |count: &u32| {
         let mut rest = *count;
-        for factor in [2, 3, 5] {
+        for factor in [3, 5, 7] {
             while rest > 1 && rest.is_multiple_of(factor) {
                 rest /= factor;
             }
@@ -119,11 +120,11 @@ mod tests {
             let [first, second] = RATES.map(|rate| f64::from(squares(side, rate)) / f64::from(side));
             assert!(first >= RATES[0] && second >= RATES[1], "{side}: {first} and {second}");
             assert!(
-                side < 63 || first < 1.05 * RATES[0],
+                side < 63 || first < 1.08 * RATES[0],
                 "{side}: no more than needed, {first}"
             );
         }
-        assert_eq!(squares(512, RATES[0]), 5832, "8 x 729");
+        assert_eq!(squares(512, RATES[0]), 4375, "625 x 7");
     }
 
     #[test]

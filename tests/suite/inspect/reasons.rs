@@ -70,7 +70,13 @@ fn what_is_clipped_away_is_not_said_to_show() {
     let body = r#"<clipPath id="c"><rect width="12.1" height="20"/></clipPath>
         <g clip-path="url(#c)"><rect x="1" y="7.6" width="16" height="0.4"/></g>"#;
     let told = |pixel| told_of(body, &at_rate(1), pixel).missed_lines().join("\n");
+    // The clip path itself, which covers a tenth of that pixel, is told besides.
     let (whole, part, nothing) = (told([5, 7]), told([12, 7]), told([13, 7]));
+    let (part, clip) = part.split_once('\n').unwrap();
+    assert!(
+        clip.ends_with("covers 10 % of the pixel, and no sample; it is part of a clip path or mask"),
+        "{clip}"
+    );
     assert!(whole.ends_with("covers 40 % of the pixel, and no sample"), "{whole}");
     assert!(part.ends_with("no sample; about 4 % of the pixel shows it"), "{part}");
     assert!(nothing.ends_with("nothing of it shows there"), "{nothing}");

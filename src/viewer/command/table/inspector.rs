@@ -143,7 +143,7 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
          are aliases; pointing at one draws it over the picture",
         Group::Inspector,
     )
-    .more("It costs a drawing of at most 512 x 512 pixels with some 170 samples each, and transforms of them, beside the picture")
+    .more("It costs a drawing of at most 512 x 512 pixels with some 100 samples each, and transforms of them, beside the picture")
     .run(&Command::Spectrum(SpectrumCommand::Show(Toggle::Flip)))
     .argument(arguments::SPECTRUM),
 ];

@@ -357,7 +357,8 @@ fn holds_disc(scene: &Scene, view: &ViewTransform, (primitive, pixel, diameter):
     let corner = DVec2::from(pixel.map(f64::from));
     let centres = (0..=24).flat_map(|y| (0..=24).map(move |x| corner + DVec2::new(f64::from(x), f64::from(y)) / 24.0));
     let disc = |centre: DVec2| {
-        let rim = (0..16).map(|i| DVec2::from_angle(f64::from(i) * 0.4) * (diameter / 2.0));
+        // So many that no gap between needles goes unnoticed.
+        let rim = (0..256).map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 256.0) * (diameter / 2.0));
         rim.chain([DVec2::ZERO]).all(|from| inside(centre + from))
     };
     centres.into_iter().any(disc)

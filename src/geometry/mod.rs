@@ -23,4 +23,4 @@ pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform, rounded_place};
-pub use width::{width_in_window, width_of_part};
+pub use width::{BEYOND, width_in_window, width_of_part};

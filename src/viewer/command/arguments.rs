@@ -31,6 +31,8 @@ pub enum Argument {
     Form {
         /// Such as `X,Y` or `on|off`.
         usage: &'static str,
+        /// What the form does not say of it by itself.
+        wanted: Option<&'static str>,
         /// The command that the text asks for; `None` when the text does not have the form.
         parse: fn(&str) -> Option<Command>,
     },
@@ -54,7 +56,10 @@ impl Argument {
     pub fn parse(&self, text: &str) -> Result<Command, String> {
         let text = text.trim();
         match self {
-            Self::Form { usage, parse } => parse(text).ok_or_else(|| format!("\"{text}\" is not {usage}")),
+            Self::Form { usage, wanted, parse } => parse(text).ok_or_else(|| {
+                let wanted = wanted.map_or(String::new(), |wanted| format!(": {wanted}"));
+                format!("\"{text}\" is not {usage}{wanted}")
+            }),
             Self::Value(setting) => setting.to(&setting.read(text, None)?).map(Command::Set),
         }
     }
@@ -67,21 +72,38 @@ impl std::fmt::Debug for Argument {
 }
 
 const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Argument {
-    Argument::Form { usage, parse }
+    Argument::Form {
+        usage,
+        wanted: None,
+        parse,
+    }
 }
 
-pub(in crate::viewer) const ROTATE: Argument = argument("a number of degrees", |text| {
+/// The same where the form does not say all of what is `wanted`.
+const fn argument_of(usage: &'static str, wanted: &'static str, parse: fn(&str) -> Option<Command>) -> Argument {
+    Argument::Form {
+        usage,
+        wanted: Some(wanted),
+        parse,
+    }
+}
+
+pub(in crate::viewer) const ROTATE: Argument = argument_of("DEGREES", "a number is wanted", |text| {
     number(text).map(|degrees| Command::View(ViewCommand::RotateBy { degrees }))
 });
 
-pub(in crate::viewer) const ZOOM: Argument = argument("a factor above 0, alone or with X,Y behind it", |text| {
-    let (factor, at) = match text.split_once(char::is_whitespace) {
-        Some((factor, at)) => (factor, Some(point(at)?)),
-        None => (text, None),
-    };
-    let factor = number(factor).filter(|factor| *factor > 0.0)?;
-    Some(Command::View(ViewCommand::ZoomAt { at, factor }))
-});
+pub(in crate::viewer) const ZOOM: Argument = argument_of(
+    "FACTOR [X,Y]",
+    "a factor above 0 is wanted, alone or with a place behind it",
+    |text| {
+        let (factor, at) = match text.split_once(char::is_whitespace) {
+            Some((factor, at)) => (factor, Some(point(at)?)),
+            None => (text, None),
+        };
+        let factor = number(factor).filter(|factor| *factor > 0.0)?;
+        Some(Command::View(ViewCommand::ZoomAt { at, factor }))
+    },
+);
 
 pub(in crate::viewer) const PAN: Argument = argument("X,Y", |text| {
     point(text).map(|by| Command::View(ViewCommand::PanBy { by }))
@@ -411,9 +433,12 @@ mod tests {
     #[test]
     fn problems_of_numbers_say_what_is_wanted() {
         let problem = |argument: Argument, text: &str| argument.parse(text).expect_err(text);
-        assert_eq!(problem(ROTATE, "nan"), "\"nan\" is not a number of degrees");
+        assert_eq!(problem(ROTATE, "nan"), "\"nan\" is not DEGREES: a number is wanted");
         let factor = problem(ZOOM, "0");
-        assert!(factor.starts_with("\"0\" is not a factor above 0"), "{factor}");
+        assert!(
+            factor.starts_with("\"0\" is not FACTOR [X,Y]: a factor above 0"),
+            "{factor}"
+        );
     }
 
     #[test]

@@ -383,14 +383,14 @@ pub(super) fn list_of<T>(
 
 /// OK and cancel; which was pressed. OK does nothing while something is `missing`.
 fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
-    let shown = |ui: &mut Ui| {
-        let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked();
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let accept = Button::new(ok).min_size(vec2(64.0, CONTROL.y));
         let accept = ui.add_enabled(missing.is_none(), accept);
         let accept = accept.on_disabled_hover_text(missing.unwrap_or_default()).clicked();
+        let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked();
         accept.then_some(true).or(cancel.then_some(false))
-    };
-    ui.horizontal(|ui| look::at_end(ui, shown)).inner
+    })
+    .inner
 }
 
 /// Room for the button beside the title of the help, in points.

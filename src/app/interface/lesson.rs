@@ -7,7 +7,6 @@ use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
 use std::ops::Range;
 
 use super::controls::{choice, command_button, tip};
-use super::look;
 use crate::viewer::{Block, Command, CommandSpec, Lesson, LessonStep, Look, Span, Viewer, commands};
 
 /// Width of the panel, in points, frame included.
@@ -45,11 +44,9 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some((lesson, at)) = viewer.lesson() else { return };
     ui.horizontal(|ui| {
         steps(ui, lesson, at, commands);
-        look::at_end(ui, |ui| {
-            let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
-            back.response.on_disabled_hover_text("This is the first step");
-            if back.inner.clicked() {
-                commands.push(Command::Scenes(SceneCommand::Previous));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if command_button(ui, "close-lesson", "Close").clicked() {
+                commands.push(Command::Lesson(LessonCommand::Close));
             }
             let is_last = at + 1 == lesson.steps.len();
             let next = ui.add_enabled_ui(!is_last, |ui| command_button(ui, "next-scene", "Next"));
@@ -57,8 +54,10 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if next.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Next));
             }
-            if command_button(ui, "close-lesson", "Close").clicked() {
-                commands.push(Command::Lesson(LessonCommand::Close));
+            let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
+            back.response.on_disabled_hover_text("This is the first step");
+            if back.inner.clicked() {
+                commands.push(Command::Scenes(SceneCommand::Previous));
             }
         });
     });

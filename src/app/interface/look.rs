@@ -165,27 +165,6 @@ pub(super) fn beside_bar<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) ->
     .inner
 }
 
-/// Contents at the end of a row, added in the order in which they are read, which is that of Tab: a layout from right to left turns
-/// it round. How wide they are is known from the pass before; in the first one they are not to be seen.
-// No second pass of the same frame is asked for: panels choose their places by what the last pass left free.
-pub(super) fn at_end<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
-    let id = ui.scope_id().with("width at the end");
-    let known: Option<f32> = ui.data(|data| data.get_temp(id));
-    ui.add_space((ui.available_width() - known.unwrap_or_default()).max(0.0));
-    let shown = ui.scope(|ui| {
-        if known.is_none() {
-            ui.set_invisible();
-        }
-        contents(ui)
-    });
-    let width = shown.response.rect.width();
-    if known.is_none_or(|known| (known - width).abs() > 0.1) {
-        ui.data_mut(|data| data.insert_temp(id, width));
-        ui.ctx().request_repaint();
-    }
-    shown.inner
-}
-
 /// Chooses the theme, and whether it is the one for a projector.
 pub(super) fn set_look(ctx: &Context, (theme, presenter): (Theme, bool)) {
     let [dark, light] = if presenter {

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, Context, Label, RichText, Ui, vec2};
+use egui::{Align, Button, Context, Label, Layout, RichText, Ui, vec2};
 
 use super::dialogs::{Dialogs, ListShown, arrows, list_of, step};
-use super::look::{self, CONTROL};
+use super::look::CONTROL;
 use super::modal::{beside, modal};
 use super::palette::{BETWEEN_ENTRIES, ENTRY};
 use crate::viewer::{Command, SceneCommand, WindowCommand, commands};
@@ -183,12 +183,13 @@ fn foot(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
     if ui.available_width() < BOTH_SIDES {
         // Otherwise they would cover each other.
         let to_folders = ui.horizontal(|ui| other_folders(ui, has_parent)).inner;
-        let rest = ui.horizontal(|ui| look::at_end(ui, ends)).inner;
-        return to_folders.or(rest);
+        let rest = ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), ends).inner);
+        return to_folders.or(rest.inner);
     }
     ui.horizontal(|ui| {
         let to_folders = other_folders(ui, has_parent);
-        to_folders.or(look::at_end(ui, ends))
+        let rest = ui.with_layout(Layout::right_to_left(Align::Center), ends).inner;
+        to_folders.or(rest)
     })
     .inner
 }
@@ -206,10 +207,12 @@ fn other_folders(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
     pressed
 }
 
-/// The buttons that end the dialog.
+/// The buttons that end the dialog, the last first.
 fn ends(ui: &mut Ui) -> Option<Foot> {
-    let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked();
     let folder = ui.add(Button::new("Open this folder").min_size(CONTROL));
-    let folder = folder.on_hover_text("Opens every scene in it").clicked();
-    folder.then_some(Foot::Folder).or(cancel.then_some(Foot::Cancel))
+    if folder.on_hover_text("Opens every scene in it").clicked() {
+        return Some(Foot::Folder);
+    }
+    let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y)));
+    cancel.clicked().then_some(Foot::Cancel)
 }

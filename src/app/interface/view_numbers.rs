@@ -2,10 +2,9 @@
 
 use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
-use egui::{Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
+use egui::{Align, Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
 use super::controls::{command_button, finite, gave_up, row};
-use super::look;
 use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
@@ -42,9 +41,9 @@ fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
     ui.add_space(3.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new("View").strong().size(12.0));
-        look::at_end(ui, |ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            for (id, text) in [("spectrum", "Spectrum"), ("profile", "Profile"), ("board", "Board")] {
+            for (id, text) in [("board", "Board"), ("profile", "Profile"), ("spectrum", "Spectrum")] {
                 let command = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);
                 if command_button(ui, id, text).clicked() {
                     commands.extend(command);
@@ -116,7 +115,7 @@ fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {
 impl Number<'_> {
     /// Never wider than `width` points, whatever the value: digits give way.
     fn show(&self, ui: &mut Ui, width: f32, value: &mut f64) {
-        let size = vec2(width, look::CONTROL.y);
+        let size = vec2(width, super::look::CONTROL.y);
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
         ui.allocate_ui_with_layout(size, layout, |ui| {
             let id = ui.next_auto_id();

@@ -296,7 +296,7 @@ fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     }
 }
 
-/// Samples in the place of areas, many and then more; or the other way.
+/// Samples in the place of areas, many and then as many as are surely farther off than the truth; or the other way.
 fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     let by = |coverage: PixelCoverage, sample_rate: SampleRate| {
         let settings = RenderSettings {
@@ -309,12 +309,10 @@ fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     if !own.coverage.is_exact() {
         return vec![by(PixelCoverage::Exact, own.sample_rate)];
     }
-    let sampled = RenderSettings {
-        sample_rate: sampled_at(own),
-        ..*own
-    };
-    let more = rates(&sampled).into_iter().map(|(_, more)| more.sample_rate);
-    std::iter::once(sampled.sample_rate)
+    let many = sampled_at(own);
+    // All rates between would be drawn for a word that says little more.
+    let more = SampleRate::new(SURE).filter(|more| *more > many && !is_own(own.pattern));
+    std::iter::once(many)
         .chain(more)
         .map(|rate| by(PixelCoverage::Sampled, rate))
         .collect()

@@ -8,6 +8,9 @@ use super::area::cut;
 
 /// A shape that holds this part of the hull around it is as good as convex.
 const CONVEX: f64 = 0.98;
+/// Steps up a hill at most, and the directions that each is tried in.
+const STEPS: usize = 24;
+const DIRECTIONS: u32 = 16;
 /// How far outside of a window [`width_of_part`] is told of a shape, in pixels: so much of a disc may lie there.
 pub const BEYOND: f64 = 1.0;
 
@@ -166,14 +169,15 @@ impl Inside {
     /// The diameter of the widest disc that is found in it, from the middles that are farthest from the border up the hill; `None` where
     /// none of these lies in the window.
     fn widest(&self) -> Option<f64> {
-        /// Distances that are measured at first, and hills that are climbed.
-        const MOST_MEASURED: usize = 2_000_000;
-        const CLIMBED: usize = 24;
+        /// Edges that are looked at for the first distances, and again for the hills that are climbed; and these hills.
+        const MOST_MEASURED: usize = 500_000;
+        const CLIMBED: usize = 8;
+        let climbed = MOST_MEASURED / (STEPS * DIRECTIONS as usize * self.border.len()).max(1);
         let each = (self.middles.len() * self.border.len()).div_ceil(MOST_MEASURED).max(1);
         let middles = self.middles.iter().step_by(each);
         let mut starts: Vec<(f64, DVec2)> = middles.map(|at| (self.distance(*at), *at)).collect();
         starts.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-        starts.truncate(CLIMBED);
+        starts.truncate(climbed.clamp(1, CLIMBED));
         let widest = starts
             .into_iter()
             .map(|start| self.climbed(start))
@@ -184,8 +188,6 @@ impl Inside {
     /// How far from the border a place is that is reached from another by steps that lead away from it. A step is shorter than the
     /// distance, so that it does not leave the part.
     fn climbed(&self, (mut radius, mut at): (f64, DVec2)) -> f64 {
-        const STEPS: usize = 64;
-        const DIRECTIONS: u32 = 16;
         let mut step = 0.5;
         for _ in 0..STEPS {
             let around = (0..DIRECTIONS)

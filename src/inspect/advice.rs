@@ -310,8 +310,9 @@ fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
         return vec![by(PixelCoverage::Exact, own.sample_rate)];
     }
     let many = sampled_at(own);
-    // All rates between would be drawn for a word that says little more.
-    let more = SampleRate::new(SURE).filter(|more| *more > many && !is_own(own.pattern));
+    // All rates between would be drawn for a word that says little more. Smoothing is made for one sample, and draws many pixels.
+    let is_sensible = !is_own(own.pattern) && own.post_process == PostProcess::None;
+    let more = SampleRate::new(SURE).filter(|more| *more > many && is_sensible);
     std::iter::once(many)
         .chain(more)
         .map(|rate| by(PixelCoverage::Sampled, rate))

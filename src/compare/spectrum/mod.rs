@@ -93,8 +93,8 @@ pub struct SpectrumReading {
     pub in_pixels: [f64; 2],
     /// Where pixels that read one point each see it, in cycles per pixel, where that is elsewhere.
     pub lands: Option<[f64; 2]>,
-    /// The strongest finer wave of the scene that lands here, unless it may be none of the scene's, and the part of this one's power that such waves account for,
-    /// `0.0..=1.0`.
+    /// The strongest finer wave of the scene that lands here, unless it may be none of the scene's, and the part of this one's
+    /// power that such waves account for, `0.0..=1.0`.
     pub source: Option<(Wave, f64)>,
 }
 

@@ -27,6 +27,12 @@ use super::{LineCap, LineJoin, StrokeStyle};
 /// A curve is halved until no corner of its control polygon turns by more than half a radian: the cosine of that.
 const GENTLE: f64 = 0.877_582_561_890_372_8;
 
+/// How far an edge may be from its arc, in tolerances, before it is split: the steps that are planned differ by less.
+const MOST_DEPARTURE: f64 = 1.25;
+
+/// How often a step along a gentle curve is halved.
+const MOST_SPLITS: u32 = 12;
+
 /// How often a curve is halved. What still turns by more than half a radian then is a cusp.
 const MOST_HALVINGS: u32 = 16;
 
@@ -194,6 +200,7 @@ impl Pen<'_> {
             f64::midpoint(densities[1], densities[2]) / 2.0,
         ];
         let steps = whole_steps(front + back);
+        let mut from = 0.0;
         for step in 1..steps {
             let done = (front + back) * f64::from(step) / f64::from(steps);
             let t = if done < front {
@@ -202,10 +209,34 @@ impl Pen<'_> {
                 0.5 + 0.5 * share_of_trapezoid(densities[1], densities[2], (done - front) / back)
             };
             if let Some(tangent) = derivative(curve, t).try_normalize() {
-                self.advance(point_at(curve, t), tangent);
+                self.steps_to(curve, [from, t], (point_at(curve, t), tangent), MOST_SPLITS);
+                from = t;
             }
         }
-        self.advance(curve[3], end);
+        self.steps_to(curve, [from, 1.0], (curve[3], end), MOST_SPLITS);
+    }
+
+    /// One edge along a part of a curve, up to a point whose tangent is given, or more where the curve turns within it: three
+    /// densities do not show a bend that is much shorter than the curve.
+    fn steps_to(&mut self, curve: [DVec2; 4], [from, to]: [f64; 2], (point, tangent): (DVec2, DVec2), splits: u32) {
+        if splits > 0 && self.departure(point, tangent) > MOST_DEPARTURE * self.tolerance {
+            let middle = f64::midpoint(from, to);
+            if let Some(tangent) = derivative(curve, middle).try_normalize() {
+                self.steps_to(curve, [from, middle], (point_at(curve, middle), tangent), splits - 1);
+                self.steps_to(curve, [middle, to], (point, tangent), splits - 1);
+                return;
+            }
+        }
+        self.advance(point, tangent);
+    }
+
+    /// How far the outer of two edges to a point is from its arc, if the path goes there in an arc.
+    fn departure(&self, to: DVec2, tangent: DVec2) -> f64 {
+        // (R + 1/2) (1 - cos θ/2), with the chord 2 R sin θ/2.
+        let cosine = self.tangent.dot(tangent).clamp(-1.0, 1.0);
+        let half = (f64::midpoint(1.0, cosine)).sqrt();
+        let chord = self.at.distance(to);
+        HALF * (1.0 - half) + 0.5 * chord * ((1.0 - half) / (1.0 + half)).sqrt()
     }
 
     /// Lets the outline turn to the direction of the next piece, or begins it.
@@ -522,6 +553,19 @@ mod tests {
             Ok(())
         })
         .size_min(2048);
+    }
+
+    /// A bend much shorter than its curve lies between the places where the curve is looked at.
+    #[test]
+    fn short_bends_at_the_end_of_a_curve_are_followed() {
+        let point = |x: f64, y: f64| Point::new(x, y);
+        let path = [
+            PathEl::MoveTo(point(-0.072, -0.0333)),
+            PathEl::CurveTo(point(0.2691, -0.1059), point(-0.1647, -0.0309), point(-0.1671, -0.0294)),
+            PathEl::LineTo(point(0.1647, 0.2283)),
+        ];
+        let contours = outline(&path, STYLE, 0.001);
+        assert_ne!(winding(&contours, DVec2::new(-0.3484, -0.4901)), 0);
     }
 
     /// A hook that is tighter than the line is wide: all of what the line sweeps, also behind its bend.

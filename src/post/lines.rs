@@ -102,11 +102,45 @@ impl LineWords {
         }
     }
 
+    /// What crosses lines, on either side.
+    #[inline]
+    fn crossed(&self) -> [u64; 3] {
+        let [_, far, near, _] = self.crossing;
+        [far[0] | near[0], far[1] | near[1], far[2] | near[2]]
+    }
+
+    /// The lines of all edges of the 64 pixels, each with the pixel's bit. The pixels of a line share what crosses its ends.
+    #[inline]
+    pub(super) fn for_each_line(&self, mut each: impl FnMut(u32, Line)) {
+        let (line, crossed) = (self.line, self.crossed());
+        let goes_on = (line[1] << 1 | line[0] >> 63) & !crossed[1];
+        let next_goes_on = (line[1] >> 1 | line[2] << 63) & !(crossed[1] >> 1 | crossed[2] << 63);
+        let (mut begins, ends) = (line[1] & !goes_on, line[1] & !next_goes_on);
+        let mut others = line[1];
+        while begins != 0 {
+            let begin = begins.trailing_zeros();
+            begins &= begins - 1;
+            let count = (ends >> begin).trailing_zeros() + 1;
+            // Lines that go on in the next word, and those that no pixel sees whole, are followed from each pixel.
+            if count > u32::from(LONGEST) + 1 {
+                continue;
+            }
+            others &= !((u64::MAX >> (64 - count)) << begin);
+            let ends = [self.end(64 + begin), self.end(64 + begin + count)];
+            for (before, after) in (0..).zip((0..u8::try_from(count).unwrap_or(LONGEST)).rev()) {
+                let lengths = [before, after];
+                each(begin + u32::from(before), Line { lengths, ends });
+            }
+        }
+        for bit in bits::ones(others) {
+            each(bit, self.line(bit));
+        }
+    }
+
     /// The line that an edge of the pixel with this bit is part of.
     #[inline]
     pub(super) fn line(&self, bit: u32) -> Line {
-        let (lines, [_, far, near, _]) = (self.line, self.crossing);
-        let crossed = [far[0] | near[0], far[1] | near[1], far[2] | near[2]];
+        let (lines, crossed) = (self.line, self.crossed());
         // It goes on before a pixel that nothing crosses, where the one before has an edge.
         let goes_on = bits::up_to(bit, [lines[0], lines[1]]) << 1 & !bits::up_to(bit, [crossed[0], crossed[1]]);
         let before = goes_on.leading_ones().min(LONGEST.into());

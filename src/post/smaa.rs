@@ -5,10 +5,7 @@ use rayon::prelude::*;
 use super::bits;
 use super::blend::{Around, Values};
 use super::edges::Edges;
-use super::weights::WeightRow;
-
-/// Rows that a thread takes at once.
-const BAND: usize = 32;
+use super::weights::{BAND, LeftWeights, TopWeights, Weights};
 
 /// How far beside a pixel others may lie that decide about it: the end of the longest line that it or the next pixel is part
 /// of, what crosses it there, and the neighbours by which that is an edge.
@@ -33,7 +30,10 @@ pub fn smaa(pixels: &mut [u32], size: [u32; 2], values: Values) {
         .map(|y| [row(y.checked_sub(1)).to_vec(), row(Some(y + BAND)).to_vec()])
         .collect();
     let bands = pixels.par_chunks_mut(BAND * width).zip(beside).enumerate();
-    bands.for_each(|(band, (pixels, beside))| smooth(pixels, beside, &edges, values, band * BAND));
+    bands.for_each_init(
+        || Smoother::new(&edges, values),
+        |smoother, (band, (pixels, beside))| smoother.smooth(band, pixels, beside),
+    );
 }
 
 /// A row; frames have far fewer than `2^31`.
@@ -41,43 +41,84 @@ fn place(at: usize) -> i32 {
     i32::try_from(at).unwrap_or(i32::MAX)
 }
 
-/// Smooths some rows from `first` on; `beside` are the rows above and below them, empty beyond the frame.
-fn smooth(pixels: &mut [u32], beside: [Vec<u32>; 2], edges: &Edges, values: Values, first: usize) {
-    let width = edges.size[0];
-    let [mut above, last] = beside;
-    // A neighbour beyond the frame weighs nothing.
-    above.resize(width, 0);
-    let mut before = vec![0; width];
-    let (mut own, mut below) = (WeightRow::new(width), WeightRow::new(width));
-    below.fill(edges, place(first));
-    for (y, start) in (first..).zip((0..pixels.len()).step_by(width)) {
-        std::mem::swap(&mut own, &mut below);
-        below.fill(edges, place(y + 1));
-        let (row, rest) = pixels[start..].split_at_mut(width);
-        before.copy_from_slice(row);
-        let next = if rest.is_empty() { &*last } else { rest };
-        let mut right = 0;
-        for (word, (weighed, under)) in own.weighed.iter().zip(&below.weighed).enumerate().rev() {
-            // Those with weights of their own, those left of one, and those above one.
-            let touched = weighed | weighed >> 1 | right << 63 | under;
-            right = *weighed;
-            for x in bits::ones(touched)
-                .map(|bit| word * 64 + bit as usize)
-                .filter(|x| *x < width)
-            {
-                let around = Around::new(own.weights[x], own.weights[x + 1], below.weights[x]);
-                if let Some(blend) = around.blend() {
-                    let at = |x: Option<usize>| x.and_then(|x| before.get(x)).copied().unwrap_or(0);
-                    let neighbours = if blend.is_across {
-                        [at(x.checked_sub(1)), at(Some(x + 1))]
-                    } else {
-                        [above[x], next.get(x).copied().unwrap_or(0)]
+/// Smooths one band after the other.
+struct Smoother<'e> {
+    edges: &'e Edges,
+    values: Values,
+    left: LeftWeights,
+    /// Of a row, and of the next.
+    top: [TopWeights; 2],
+}
+
+impl<'e> Smoother<'e> {
+    fn new(edges: &'e Edges, values: Values) -> Self {
+        let width = edges.size[0];
+        Self {
+            edges,
+            values,
+            left: LeftWeights::new(width),
+            top: [TopWeights::new(width), TopWeights::new(width)],
+        }
+    }
+
+    /// Smooths the rows of a band; `beside` are the rows above and below them, empty beyond the frame.
+    fn smooth(&mut self, band: usize, pixels: &mut [u32], beside: [Vec<u32>; 2]) {
+        let width = self.edges.size[0];
+        let [mut above, last] = beside;
+        // A neighbour beyond the frame weighs nothing.
+        above.resize(width, 0);
+        let mut before = vec![0; width];
+        let Self {
+            edges,
+            values,
+            left,
+            top: [own, below],
+        } = self;
+        left.fill(edges, band);
+        below.fill(edges, place(band * BAND), |x| left.clear(x, 0));
+        for (y, start) in (0..pixels.len()).step_by(width).enumerate() {
+            std::mem::swap(own, below);
+            below.fill(edges, place(band * BAND + y + 1), |x| {
+                if y + 1 < BAND {
+                    left.clear(x, y + 1);
+                }
+            });
+            let (row, rest) = pixels[start..].split_at_mut(width);
+            before.copy_from_slice(row);
+            let next = if rest.is_empty() { &*last } else { rest };
+            let lefts = left.row(y);
+            let mut right = 0;
+            for (word, (top, under)) in own.weighed.iter().zip(&below.weighed).enumerate().rev() {
+                let weighed = left.weighed(word, y);
+                // Those with weights of their own, those left of one, and those above one.
+                let touched = top | weighed | weighed >> 1 | right << 63 | under;
+                right = weighed;
+                for x in bits::ones(touched)
+                    .map(|bit| word * 64 + bit as usize)
+                    .filter(|x| *x < width)
+                {
+                    let at = |left: usize| Weights {
+                        top: own.weights[x],
+                        left: lefts[left],
                     };
-                    row[x] = blend.pixel(before[x], neighbours, values);
+                    let under = Weights {
+                        top: below.weights[x],
+                        left: [0; 2],
+                    };
+                    let around = Around::new(at(x), at(x + 1), under);
+                    if let Some(blend) = around.blend() {
+                        let at = |x: Option<usize>| x.and_then(|x| before.get(x)).copied().unwrap_or(0);
+                        let neighbours = if blend.is_across {
+                            [at(x.checked_sub(1)), at(Some(x + 1))]
+                        } else {
+                            [above[x], next.get(x).copied().unwrap_or(0)]
+                        };
+                        row[x] = blend.pixel(before[x], neighbours, *values);
+                    }
                 }
             }
+            std::mem::swap(&mut above, &mut before);
         }
-        std::mem::swap(&mut above, &mut before);
     }
 }
 

@@ -11,7 +11,6 @@ use super::picture::{on_threads, read_scene};
 use super::render::{guard_of, name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::figure::{Destination, Figure, Guard, Named};
-use crate::rules::Rules;
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, Sheet, SheetRequest};
 
 /// Draws the sheet and writes it, its panels and the snippets.
@@ -83,34 +82,24 @@ pub(super) fn spec(options: &SheetOptions) -> Result<PictureSpec, String> {
 /// # Errors
 /// One line.
 pub(super) fn request(options: &SheetOptions) -> Result<SheetRequest, String> {
-    let mut panels = Vec::new();
-    for choice in options.axes.0.choices() {
-        panels.push(sampling(&choice)?.rules());
-    }
-    // Panels that differ in their rules show one reading of the document.
-    let by_rules = panels.iter().all(|rules| *rules == Rules::Course);
     let axes = options.axis_lists()?;
     let page = SheetRequest::page_panel(&axes);
     let size = options.size.map_or([page; 2], |FrameSize(size)| size);
-    let mut request = SheetRequest::new(axes, |choice| panel(options, choice, by_rules, size))?;
+    let mut request = SheetRequest::new(axes, |choice| panel(options, choice, size))?;
     request.theme = options.theme;
     request.note.clone_from(&options.note);
     Ok(request)
 }
 
-/// What a panel of this size shows; `by_rules` lets its rules decide how the document is read.
-fn panel(options: &SheetOptions, choice: &Choice, by_rules: bool, size: [u32; 2]) -> Result<PictureSpec, String> {
+/// What a panel of this size shows.
+fn panel(options: &SheetOptions, choice: &Choice, size: [u32; 2]) -> Result<PictureSpec, String> {
     let sampling = sampling(choice)?;
     Ok(PictureSpec {
         scene: SceneSource::from_address(&options.scene),
         size,
         view: options.framing.view,
         render: sampling.settings(options.framing.view),
-        dialect: if by_rules {
-            sampling.reading()
-        } else {
-            sampling.dialect()
-        },
+        dialect: options.axes.reading(&sampling),
         insets: options.insets.clone(),
         // The sheet has one for all panels.
         legend: false,

@@ -110,7 +110,7 @@ fn specs(options: &SweepOptions) -> Result<Vec<(Choice, PictureSpec)>, Failure> 
             size,
             view: options.framing.view,
             render: sampling.settings(options.framing.view),
-            dialect: sampling.reading(),
+            dialect: options.axes.reading(&sampling),
             insets: Vec::new(),
             legend: false,
         };

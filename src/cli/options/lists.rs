@@ -4,11 +4,25 @@ use clap::builder::{OsStr, Resettable};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, value_parser};
 
 use super::sampling::{SamplingOptions, sampling_of};
+use crate::scene::DialectChoice;
 use crate::viewer::{Axis, AxisLists, Choice};
 
 /// The lists that were given, in the order they were written in.
 #[derive(Clone, Debug, Default)]
 pub(in crate::cli) struct Lists(pub(in crate::cli) AxisLists);
+
+impl Lists {
+    /// How the document is read for one of the combinations. Where rules are compared, all show one reading of it; else the
+    /// course's rules ask for the course's.
+    pub(in crate::cli) fn reading(&self, sampling: &SamplingOptions) -> DialectChoice {
+        let compares_rules = self.0.axes().any(|axis| axis.name == "rules");
+        if compares_rules {
+            sampling.dialect()
+        } else {
+            sampling.reading()
+        }
+    }
+}
 
 /// The sampling of a choice.
 ///

@@ -41,11 +41,6 @@ impl SamplingOptions {
         self.settings.dialect
     }
 
-    /// The rules of the picture.
-    pub(in crate::cli) fn rules(&self) -> Rules {
-        self.settings.render.rules
-    }
-
     /// Samples per pixel.
     pub(in crate::cli) fn sample_rate(&self) -> SampleRate {
         self.settings.render.sample_rate

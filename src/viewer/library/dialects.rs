@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
@@ -14,6 +15,15 @@ pub(in crate::viewer) struct WantedDialects {
     pub(in crate::viewer) own: DialectChoice,
     /// B's, where it is another one; else B shares A's scene.
     pub(in crate::viewer) other: Option<DialectChoice>,
+}
+
+/// What a command line has to say for a document to be read in `dialect` again, where `choice` led to that.
+pub(in crate::viewer) fn told_dialect(choice: DialectChoice, rules: Rules, dialect: Dialect) -> DialectChoice {
+    match (choice, rules, dialect) {
+        // There the course's rules ask for the course's dialect.
+        (DialectChoice::Auto, Rules::Course, Dialect::Svg) => DialectChoice::Svg,
+        _ => choice,
+    }
 }
 
 impl SceneEntry {
@@ -44,16 +54,11 @@ impl SceneList {
     /// The choice of dialect that makes the current picture from its file alone.
     pub(in crate::viewer) fn dialect_of_picture(&self, settings: &Settings) -> DialectChoice {
         let choice = self.reading_of(self.current, settings.dialect);
-        let asks_for_course = settings.render.rules == crate::rules::Rules::Course;
         let scene = self.current().and_then(SceneEntry::scene);
         let Some(dialect) = scene.map(|scene| scene.dialect) else {
             return choice;
         };
-        match (choice.anywhere(dialect), dialect) {
-            // On a command line the course's rules ask for the course's dialect.
-            (DialectChoice::Auto, Dialect::Svg) if asks_for_course => DialectChoice::Svg,
-            (choice, _) => choice,
-        }
+        told_dialect(choice.anywhere(dialect), settings.render.rules, dialect)
     }
 
     /// Which reading the current scene has, in few words, where it may be meant in the other dialect.

@@ -109,6 +109,32 @@ fn sheet_is_drawn_again_and_brings_its_first_panel_back() {
     );
 }
 
+/// Of SVG that the course's reading does not draw.
+#[test]
+fn sheet_of_rules_shows_one_reading_of_the_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = r##"<svg width="40" height="30"><path d="M2 3 L37 9 L11 28Z" fill="#123456"/></svg>"##;
+    fs::write(folder.path().join("a.svg"), path).unwrap();
+    let arguments = [
+        "sheet",
+        "a.svg",
+        "-o",
+        "s.png",
+        "--rules",
+        "standard,course",
+        "--size",
+        "40x30",
+    ];
+    done(folder.path(), &arguments);
+    for panel in ["01_rules-standard.png", "02_rules-course.png"] {
+        let panel = format!("s/{panel}");
+        let picture = image::open(folder.path().join(&panel)).unwrap().into_rgb8();
+        assert_eq!(picture.get_pixel(15, 12).0, [0x12, 0x34, 0x56], "{panel}");
+        let said = done(folder.path(), &["rerun", &panel, "--check"]);
+        assert!(said.contains("the same"), "{said}");
+    }
+}
+
 #[test]
 fn sheet_of_one_axis_takes_rows_where_it_is_long() {
     let folder = tempfile::tempdir().unwrap();
@@ -227,6 +253,22 @@ fn sheet_at_fault_writes_nothing() {
             "grid,rotated,jittered,jittered-same,r2",
         ],
         &["64", "80"],
+    );
+    let many = (1..=100).map(|n| n.to_string()).collect::<Vec<_>>().join(",");
+    refused(
+        &[
+            "-o",
+            "s.png",
+            "--seed",
+            &many,
+            "--lod-bias",
+            &many,
+            "--lod-level",
+            &many,
+            "--pattern",
+            "grid,r2,sobol",
+        ],
+        &["64", "over a million"],
     );
     refused(
         &["-o", "s.png", "--sample-rate", "1,4", "--size", "9000x9000"],

@@ -164,6 +164,29 @@ fn sweep_memory_does_not_depend_on_the_order() {
     }
 }
 
+/// Of SVG that the course's reading does not draw: an empty picture would be without any error.
+#[test]
+fn sweep_of_rules_measures_one_reading_of_the_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = r##"<svg width="40" height="30"><path d="M2 3 L37 9 L11 28Z" fill="#123456"/></svg>"##;
+    fs::write(folder.path().join("a.svg"), path).unwrap();
+    let arguments = [
+        "a.svg",
+        "--csv",
+        "t.csv",
+        "--rules=standard,course",
+        "--size=40x30",
+        "--frames=1",
+    ];
+    assert!(sweep(folder.path(), &arguments).status().unwrap().success(), "measured");
+    let table = cells(&folder.path().join("t.csv"));
+    let column = table[0].iter().position(|name| name == "rmse").unwrap();
+    for row in &table[1..] {
+        let rmse: f64 = row[column].parse().unwrap();
+        assert!(rmse > 1.0, "{row:?}");
+    }
+}
+
 #[test]
 fn sweep_refuses_before_it_measures() {
     let folder = folder();

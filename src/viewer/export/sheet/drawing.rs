@@ -11,6 +11,7 @@ use crate::scene::{DialectChoice, Scene};
 use crate::viewer::export::sheet::axes::{Axis, AxisLists, Choice};
 use crate::viewer::export::sheet::captions::{Labels, caption, difference};
 use crate::viewer::export::spec::{PictureSpec, as_path, plain_record};
+use crate::viewer::library::dialects::told_dialect;
 
 /// Most panels of a sheet.
 const MAX_PANELS: usize = 64;
@@ -168,8 +169,10 @@ impl SheetRequest {
                 settings: &spec.render,
             };
             add_furniture(&mut frame, &spec.insets, &subject, &[]).map_err(|error| error.to_string())?;
+            let mut spec = spec.clone();
+            spec.dialect = told_dialect(spec.dialect, spec.render.rules, scene.dialect);
             panels.push(Panel {
-                spec: spec.clone(),
+                spec,
                 scene,
                 frame,
                 words: difference(self.axes.axes(), choice, &self.labels),

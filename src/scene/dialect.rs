@@ -159,6 +159,8 @@ struct Traits {
     rich: bool,
     /// It has a `style`, where rects without a size are leftovers.
     styled: bool,
+    /// Its shapes are shown larger or smaller than they are written; there such rects are leftovers, too.
+    scaled: bool,
     /// It has something that the course's reader draws.
     drawn: bool,
     /// It has strokes, a `viewBox` and the like, which mean something else to each reader.
@@ -175,6 +177,7 @@ impl Traits {
             measured: begins_with_number(root, "width") && begins_with_number(root, "height"),
             differs: has_view_box(root),
             foreign: is_styled_root(root) || is_scaled(root),
+            scaled: is_scaled(root),
             ..Self::default()
         };
         let mut open = vec![root.children()];
@@ -214,7 +217,8 @@ impl Traits {
     /// or unit of which the course's reader knows nothing, no paint for a whole group, and a size in plain numbers that is that
     /// of the `viewBox`, too.
     fn dialect(self) -> Dialect {
-        if self.own || (self.points && self.measured && !self.rich && !self.styled) || (self.sized && !self.foreign) {
+        let is_pointed = self.points && self.measured && !self.rich && !self.styled && !self.scaled;
+        if self.own || is_pointed || (self.sized && !self.foreign) {
             Dialect::Course
         } else {
             Dialect::Svg
@@ -222,7 +226,9 @@ impl Traits {
     }
 
     fn may_be_either(self) -> bool {
-        !self.own && !self.points && !self.rich && self.drawn && self.measured && self.differs
+        // Points are the course's, unless the rest is written as SVG.
+        let says_nothing = !self.points || self.foreign;
+        !self.own && says_nothing && !self.rich && self.drawn && self.measured && self.differs
     }
 }
 

@@ -408,6 +408,11 @@ fn auto_finds_the_dialect() {
         (size, "<g fill='#ff0000'><polygon/></g>", Dialect::Svg),
         ("width='9' height='9' viewBox='0 0 3 3'", "<polygon/>", Dialect::Svg),
         (
+            "width='9' height='9' viewBox='0 0 3 3'",
+            "<polygon/><rect/>",
+            Dialect::Svg,
+        ),
+        (
             "width='1px' height='1px' viewBox='0 0 3 3'",
             "<polygon/>",
             Dialect::Course,
@@ -425,5 +430,21 @@ fn auto_finds_the_dialect() {
     ] {
         let scene = read(&svg(attributes, body), DialectChoice::Auto);
         assert_eq!(scene.dialect, expected, "<svg {attributes}>{body}");
+    }
+}
+
+/// Points are the course's; beside what only SVG means, the other reading is told of.
+#[test]
+fn points_beside_colours_of_svg_are_not_taken_for_granted() {
+    let size = "width='10' height='10'";
+    for (body, other) in [
+        ("<rect fill='#ff0000'/><line stroke='#000000'/>", None),
+        (
+            "<rect fill='#fff'/><ellipse rx='3' ry='2' fill='#dae8fc'/>",
+            Some(Dialect::Svg),
+        ),
+    ] {
+        let scene = read(&svg(size, body), DialectChoice::Auto);
+        assert_eq!((scene.dialect, scene.other_reading), (Dialect::Course, other), "{body}");
     }
 }

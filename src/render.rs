@@ -33,7 +33,7 @@ pub use regions::{Subject, draw_regions, draw_resolved, refine};
 pub use replay::{Explainer, MissedPrimitive, Neighbourhood, OpenSample, replay};
 use screen::Screen;
 pub use smoothed::widened;
-pub use timing::{Repeats, median, milliseconds, time_draws};
+pub use timing::{Repeats, median, milliseconds, time_draws, time_words};
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
 

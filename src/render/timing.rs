@@ -57,12 +57,33 @@ pub fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
+/// A time in milliseconds with three digits that count, as tiles and captions show it: `12.3 ms`, `0.012 ms`.
+pub fn time_words(time: Duration) -> String {
+    let time = milliseconds(time);
+    let places = match time {
+        _ if time >= 100.0 => 0,
+        _ if time >= 10.0 => 1,
+        _ if time >= 1.0 => 2,
+        _ => 3,
+    };
+    format!("{time:.places$} ms")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::View;
     use crate::render::RenderSettings;
     use crate::scene::{DialectChoice, load};
+
+    #[test]
+    fn times_have_three_digits_that_count() {
+        let words = |micros: u64| time_words(Duration::from_micros(micros));
+        assert_eq!(
+            [words(123_456), words(12_345), words(1_234), words(12)],
+            ["123 ms", "12.3 ms", "1.23 ms", "0.012 ms"]
+        );
+    }
 
     #[test]
     fn median_is_the_middle() {

@@ -10,7 +10,7 @@ use super::controls::tip;
 use super::scenes::image_of;
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::render::milliseconds;
+use crate::render::time_words;
 use crate::viewer::{BoardCommand, BoardSort, Command, ShownTile, Viewer};
 
 /// Least width of a tile with its words, in points.
@@ -283,13 +283,7 @@ fn numbers(tile: &ShownTile<'_>, timed: bool) -> [String; 3] {
     let Some(numbers) = tile.tile.map(|tile| tile.numbers) else {
         return ["\u{2026}".to_owned(), String::new(), String::new()];
     };
-    let time = milliseconds(numbers.time);
-    let time = match time {
-        _ if !timed => String::new(),
-        time if time >= 100.0 => format!("{time:.0} ms"),
-        time if time >= 10.0 => format!("{time:.1} ms"),
-        time => format!("{time:.2} ms"),
-    };
+    let time = if timed { time_words(numbers.time) } else { String::new() };
     [
         format!("RMSE {:.2}", numbers.rmse),
         format!("FLIP {:.4}", numbers.flip),

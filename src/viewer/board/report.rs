@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::color::ResolveSpace;
 use crate::figure::{Ground, Record, SheetPlan, Table, in_markdown, magnified};
 use crate::raster::{Framebuffer, Region};
-use crate::render::milliseconds;
+use crate::render::{milliseconds, time_words};
 use crate::scene::Scene;
 use crate::viewer::board::entry::{AS_A, BoardEntry, captions, differing};
 use crate::viewer::board::measure::{BoardPlace, BoardTile};
@@ -132,8 +132,7 @@ impl<'a> BoardReport<'a> {
         let words = captions(&self.entries());
         let told = self.rows.iter().zip(words).map(|((_, tile), words)| {
             let BoardNumbers { rmse, flip, time } = tile.numbers;
-            let time = milliseconds(time);
-            format!("{words}\nRMSE {rmse:.2}\nFLIP {flip:.4}, {time:.2} ms")
+            format!("{words}\nRMSE {rmse:.2}\nFLIP {flip:.4}, {}", time_words(time))
         });
         let first = format!("the truth\n{}", self.place.truth_words());
         let headers: Vec<String> = std::iter::once(first).chain(told).collect();

@@ -5,5 +5,6 @@ mod architecture;
 mod contributing;
 mod floors;
 mod fuzzing;
+mod json;
 mod readme;
 mod values;

@@ -1,6 +1,7 @@
 //! Diagonal lines of edges: stairs of one pixel each, which lie at 45 degrees and which lines along rows and columns would
 //! smooth into waves.
 
+use super::bits;
 use super::edges::{Edges, FALL, LEFT, RISE, TOP};
 
 /// Pixels that a diagonal is followed in each direction.
@@ -40,74 +41,114 @@ impl Reached {
     }
 }
 
-/// Follows a diagonal by `step` as long as pixels have steps of its kind.
+/// Follows a diagonal from the pixel with this bit as long as there are steps.
 #[inline]
-fn follow(edges: &Edges, kind: usize, [x, y]: [i32; 2], step: [i32; 2]) -> Reached {
-    let mut steps = 0;
-    loop {
-        let ahead = i32::from(steps) + 1;
-        let goes_on = edges.has_step([x + ahead * step[0], y + ahead * step[1]], kind);
-        if !goes_on || steps == LONGEST - 1 {
-            return Reached { steps, ended: !goes_on };
-        }
-        steps += 1;
+fn follow(stairs: &[u64; REACH], bit: u32) -> Reached {
+    let goes_on = |word: &&u64| *word >> bit & 1 != 0;
+    let steps = stairs[1..].iter().take_while(goes_on).count();
+    let steps = u8::try_from(steps).unwrap_or(LONGEST);
+    Reached {
+        steps: steps.min(LONGEST - 1),
+        ended: steps < LONGEST,
     }
 }
 
-/// Which of the 64 pixels of a word in row `y` diagonals may go through that rise, and which that fall: no others have three
-/// steps.
-pub(super) fn candidates(edges: &Edges, word: usize, y: i32) -> [u64; 2] {
-    let [left, top] = edges.rows.word(word, y);
-    if top == 0 {
-        return [0; 2];
-    }
-    // Of the pixels that lie so far to the right, in a row.
-    let moved = |x: i32, y: i32, kind: usize| {
-        let words = |word: usize| edges.stairs.word(word, y)[kind];
-        match x.unsigned_abs() {
-            0 => words(word),
-            by if x > 0 => words(word) >> by | words(word + 1) << (64 - by),
-            by => words(word) << by | words(word - 1) >> (64 - by),
+/// Steps that are looked at in each direction: all, and the one that ends them.
+const REACH: usize = LONGEST as usize + 1;
+
+/// The steps of one kind around the 64 pixels of a word: the `k`th words are of the pixels `k` steps to the right, or to the
+/// left, moved to the bits of the word's own.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stairs {
+    right: [u64; REACH],
+    left: [u64; REACH],
+}
+
+/// The diagonals through the top edges of 64 pixels of a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Diagonals<'e> {
+    edges: &'e Edges,
+    word: usize,
+    y: i32,
+    /// Which pixels diagonals may go through that rise, and which that fall: no others have three steps.
+    candidates: [u64; 2],
+    stairs: [Stairs; 2],
+}
+
+/// How many rows further below the next step is to the right, by [`RISE`] and [`FALL`].
+const DOWN: [i32; 2] = [-1, 1];
+
+impl<'e> Diagonals<'e> {
+    /// Of word number `word` of row `y`.
+    pub(super) fn new(edges: &'e Edges, word: usize, y: i32) -> Self {
+        let mut found = Self {
+            edges,
+            word,
+            y,
+            candidates: [0; 2],
+            stairs: [Stairs::default(); 2],
+        };
+        let [left, top] = edges.rows.word(word, y);
+        if top == 0 {
+            return found;
         }
-    };
-    let rises = |step: i32| moved(step, y - step, RISE);
-    let falls = |step: i32| moved(step, y + step, FALL);
-    let right = left >> 1 | edges.rows.word(word + 1, y)[LEFT] << 63;
-    let rising = may_go(left, [rises(1), rises(2), rises(3)], [rises(-1), rises(-2)]);
-    let falling = may_go(right, [falls(-1), falls(-2), falls(-3)], [falls(1), falls(2)]);
-    [top & rising, top & falling]
-}
+        let right = left >> 1 | edges.rows.word(word + 1, y)[LEFT] << 63;
+        let [rises, falls] = [RISE, FALL].map(|kind| move |steps: i32| found.moved(kind, steps));
+        let rising = may_go(left, [rises(1), rises(2), rises(3)], [rises(-1), rises(-2)]);
+        let falling = may_go(right, [falls(-1), falls(-2), falls(-3)], [falls(1), falls(2)]);
+        found.candidates = [top & rising, top & falling];
+        for kind in [RISE, FALL] {
+            if found.candidates[kind] != 0 {
+                for (at, steps) in (0..REACH).zip(0..) {
+                    found.stairs[kind].right[at] = found.moved(kind, steps);
+                    found.stairs[kind].left[at] = found.moved(kind, -steps);
+                }
+            }
+        }
+        found
+    }
 
-/// Whether the stairs of a diagonal may be three: upwards from a pixel, and downwards where it has the `side` for that.
-fn may_go(side: u64, up: [u64; 3], down: [u64; 2]) -> u64 {
-    up[0] & up[1] & (up[2] | side) | side & down[0] & (up[0] | down[1])
-}
+    /// The steps of the pixels that lie so many steps to the right, in the bits of those from which they do.
+    fn moved(&self, kind: usize, steps: i32) -> u64 {
+        let words = |word: usize| self.edges.stairs.word(word, self.y + steps * DOWN[kind])[kind];
+        match steps.unsigned_abs() {
+            0 => words(self.word),
+            by if steps > 0 => words(self.word) >> by | words(self.word + 1) << (64 - by),
+            by => words(self.word) << by | words(self.word - 1) >> (64 - by),
+        }
+    }
 
-impl Diagonal {
-    /// The diagonals that go through a pixel with a top edge, the one that rises and the one that falls, if it is among the
-    /// [`candidates`] of either.
+    /// Pixels through which diagonals may go.
+    pub(super) fn candidates(&self) -> u64 {
+        self.candidates[RISE] | self.candidates[FALL]
+    }
+
+    /// The diagonals that go through the pixel with this bit: the one that rises, and the one that falls.
     #[inline]
-    pub(super) fn through(edges: &Edges, pixel: [i32; 2], [may_rise, may_fall]: [bool; 2]) -> [Option<Self>; 2] {
-        let rising = may_rise.then(|| Self::rising(edges, pixel));
-        let falling = may_fall.then(|| Self::falling(edges, pixel));
+    pub(super) fn through(&self, bit: u32) -> [Option<Diagonal>; 2] {
+        let may = |kind: usize| self.candidates[kind] >> bit & 1 != 0;
+        let rising = may(RISE).then(|| self.rising(bit));
+        let falling = may(FALL).then(|| self.falling(bit));
         [rising.flatten(), falling.flatten()]
     }
 
-    fn rising(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
+    fn rising(&self, bit: u32) -> Option<Diagonal> {
+        let (x, y) = (bits::along(self.word, bit), self.y);
+        let has = |x: i32, y: i32, side: usize| self.edges.has([x, y], side);
+        let stairs = &self.stairs[RISE];
         let mut lengths = [0; 2];
         let left = if has(x, y, LEFT) {
-            let left = follow(edges, RISE, [x, y], [-1, 1]);
+            let left = follow(&stairs.left, bit);
             let ahead = i32::from(left.steps) + 1;
             lengths[0] = left.steps + u8::from(!left.ended || has(x - ahead, y + ahead, TOP));
             left
         } else {
             Reached::NOWHERE
         };
-        let right = follow(edges, RISE, [x, y], [1, -1]);
+        let right = follow(&stairs.right, bit);
         lengths[1] = right.steps;
         let [before, after] = lengths.map(i32::from);
-        (lengths[0] + lengths[1] >= FEWEST).then(|| Self {
+        (lengths[0] + lengths[1] >= FEWEST).then(|| Diagonal {
             rises: true,
             lengths,
             ends: [
@@ -120,12 +161,14 @@ impl Diagonal {
         })
     }
 
-    fn falling(edges: &Edges, [x, y]: [i32; 2]) -> Option<Self> {
-        let has = |x: i32, y: i32, side: usize| edges.has([x, y], side);
-        let left = follow(edges, FALL, [x, y], [-1, -1]);
+    fn falling(&self, bit: u32) -> Option<Diagonal> {
+        let (x, y) = (bits::along(self.word, bit), self.y);
+        let has = |x: i32, y: i32, side: usize| self.edges.has([x, y], side);
+        let stairs = &self.stairs[FALL];
+        let left = follow(&stairs.left, bit);
         let mut lengths = [left.steps, 0];
         let right = if has(x + 1, y, LEFT) {
-            let right = follow(edges, FALL, [x, y], [1, 1]);
+            let right = follow(&stairs.right, bit);
             let ahead = i32::from(right.steps) + 1;
             lengths[1] = right.steps + u8::from(!right.ended || has(x + ahead, y + ahead, TOP));
             right
@@ -133,7 +176,7 @@ impl Diagonal {
             Reached::NOWHERE
         };
         let [before, after] = lengths.map(i32::from);
-        (lengths[0] + lengths[1] >= FEWEST).then(|| Self {
+        (lengths[0] + lengths[1] >= FEWEST).then(|| Diagonal {
             rises: false,
             lengths,
             ends: [
@@ -145,4 +188,9 @@ impl Diagonal {
             ],
         })
     }
+}
+
+/// Whether the stairs of a diagonal may be three: upwards from a pixel, and downwards where it has the `side` for that.
+fn may_go(side: u64, up: [u64; 3], down: [u64; 2]) -> u64 {
+    up[0] & up[1] & (up[2] | side) | side & down[0] & (up[0] | down[1])
 }

@@ -240,13 +240,6 @@ impl Edges {
         let (word, bit) = bits::place(x);
         self.rows.word(word, y)[side] >> bit & 1 != 0
     }
-
-    /// Whether a pixel has a step of a diagonal, [`RISE`] or [`FALL`].
-    #[inline]
-    pub(super) fn has_step(&self, [x, y]: [i32; 2], kind: usize) -> bool {
-        let (word, bit) = bits::place(x);
-        self.stairs.word(word, y)[kind] >> bit & 1 != 0
-    }
 }
 
 /// Makes words of columns from those of rows.

@@ -2,7 +2,7 @@
 
 use super::areas::{self, Areas, ONE};
 use super::bits::{self, Words};
-use super::diagonals::{self, Diagonal};
+use super::diagonals::{Diagonal, Diagonals};
 use super::edges::{Edges, LEFT, TOP};
 use super::lines::{Axis, Line, LineWords};
 
@@ -27,8 +27,7 @@ struct RowWord<'e> {
     word: usize,
     y: i32,
     sides: Words,
-    /// Where a diagonal may rise, and where one may fall.
-    diagonals: [u64; 2],
+    diagonals: Diagonals<'e>,
     lines: LineWords,
 }
 
@@ -48,7 +47,7 @@ impl<'e> RowWord<'e> {
             word,
             y,
             sides: edges.rows.word(word, y),
-            diagonals: diagonals::candidates(edges, word, y),
+            diagonals: Diagonals::new(edges, word, y),
             lines: LineWords::new(edges, Axis::Row, word, y),
         }
     }
@@ -60,8 +59,7 @@ impl<'e> RowWord<'e> {
     /// The diagonals through the top edge of the pixel with this bit, and their weights, if there are any.
     #[inline]
     fn diagonals_at(&self, bit: u32) -> Option<([Option<Diagonal>; 2], Areas)> {
-        let may_be = self.diagonals.map(|candidates| candidates >> bit & 1 != 0);
-        let diagonals = Diagonal::through(self.edges, self.pixel(bit), may_be);
+        let diagonals = self.diagonals.through(bit);
         let weights = diagonals_weights(diagonals);
         // Some patterns of diagonals cover nothing.
         (weights != [0; 2]).then_some((diagonals, weights))
@@ -159,8 +157,7 @@ impl TopWeights {
                 *weighed = *weighed & !(1 << bit) | u64::from(areas != [0; 2]) << bit;
             };
             row.lines.for_each_line(|bit, line| put(bit, line_weights(line)));
-            let [rises, falls] = row.diagonals;
-            for bit in bits::ones(rises | falls) {
+            for bit in bits::ones(row.diagonals.candidates()) {
                 if let Some((_, areas)) = row.diagonals_at(bit) {
                     put(bit, areas);
                     taken(word * 64 + bit as usize);

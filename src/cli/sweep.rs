@@ -381,11 +381,11 @@ impl Sweep {
     fn plot(&self, options: &SweepOptions) -> Plot {
         let axes: Vec<_> = options.axes.0.axes().collect();
         let first = axes.first();
+        let rest = || axes.iter().skip(1);
         let measured: Vec<_> = self.specs.iter().zip(&self.rows).collect();
         let series = measured.chunks(first.map_or(1, |axis| axis.values.len())).map(|line| {
-            let rest = axes.iter().skip(1);
             let named = line.first().map(|((choice, _), _)| {
-                let values: Vec<String> = rest.map(|axis| axis.words(value(choice, &axis.name))).collect();
+                let values: Vec<&str> = rest().map(|axis| axis.short(value(choice, &axis.name))).collect();
                 values.join(", ")
             });
             let point = |((choice, _), row): &(&(Choice, PictureSpec), &Row)| {
@@ -404,6 +404,7 @@ impl Sweep {
                 "milliseconds per frame, median".to_owned(),
                 options.quality.title().to_owned(),
             ],
+            heading: rest().map(|axis| axis.title()).collect::<Vec<_>>().join(", "),
             series: series.collect(),
         }
     }

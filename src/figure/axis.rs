@@ -49,7 +49,7 @@ impl Axis {
     }
 
     /// How far along it a number lies, from 0 to 1.
-    fn part(&self, value: f64) -> f64 {
+    pub(super) fn part(&self, value: f64) -> f64 {
         let [first, last] = self.ends;
         match self.scale {
             Scale::Even => (value - first) / (last - first),

@@ -32,9 +32,15 @@ impl Beside {
     pub(super) fn place(&mut self, [x, y]: [i64; 2], [width, height]: [u32; 2]) -> [i64; 2] {
         let (wide, high, gap) = (i64::from(width), i64::from(height), self.gap);
         let columns = [x + gap, x - gap - wide, x - wide / 2];
-        // Above and below, then farther and farther away.
-        let rows = (0..4).flat_map(|away| [y - gap - high - away * high, y + gap + away * high]);
-        let places = rows.flat_map(|y| columns.map(|x| PixelRect { x, y, width, height }));
+        // Above and below, to the right and to the left, then farther and farther away.
+        let near = [y - gap - high, y + gap]
+            .into_iter()
+            .flat_map(|y| columns.map(|x| [x, y]));
+        let level = columns.into_iter().take(2).map(|x| [x, y - high / 2]);
+        let rows = (1..4).flat_map(|away| [y - gap - high - away * high, y + gap + away * high]);
+        let far = rows.flat_map(|y| columns.map(|x| [x, y]));
+        let places = near.chain(level).chain(far);
+        let places = places.map(|[x, y]| PixelRect { x, y, width, height });
         let area = |rect: PixelRect| u64::from(rect.width) * u64::from(rect.height);
         let hidden = |place: &PixelRect| {
             let outside = area(*place) - area(place.intersection(&self.inside));

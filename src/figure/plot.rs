@@ -1,40 +1,39 @@
 //! Charts: series of labelled points over a logarithmic axis, for what costs time and what it is worth.
 
+mod legend;
+mod look;
+
 use std::sync::LazyLock;
 
+use glam::DVec2;
 use plotters::backend::{BitMapBackend, DrawingBackend};
-use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
-use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea as _};
-use plotters::element::{Circle, PathElement, Text};
-use plotters::series::LineSeries;
-use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, RGBColor, ShapeStyle, WHITE, register_font};
+use plotters::element::Text;
+use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, WHITE, register_font};
 
-use super::PixelRect;
+use self::legend::ChartLegend;
+use self::look::{Look, draw_words};
 use super::axis::{Axis, Scale};
 use super::beside::Beside;
+use super::lines::{Stroke, draw_line};
+use super::{Anchor, PixelRect, TextBlock, TextStyle};
 use crate::plain;
 use crate::raster::Framebuffer;
 
 /// What fonts are called here.
 const FONT: &str = "sans-serif";
-/// Heights of letters in units: of legend and notes, and of the numbers of axes.
+/// Heights of letters in units: of legend and notes, of the numbers of axes, and of the words beside points.
 const LETTERS: f64 = 1.1;
 const NUMBERS: f64 = 1.15;
+const WORDS: f64 = 1.05;
 /// Around the chart, and below it for numbers and words, in units.
 const MARGIN: f64 = 0.8;
 const BELOW: f64 = 3.4;
-/// Colours of series (M. Okabe, K. Ito, "Color Universal Design", 2008), the palest left out.
-const COLORS: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xB2),
-    RGBColor(0xD5, 0x5E, 0x00),
-    RGBColor(0x00, 0x9E, 0x73),
-    RGBColor(0xCC, 0x79, 0xA7),
-    RGBColor(0xE6, 0x9F, 0x00),
-    RGBColor(0x56, 0xB4, 0xE9),
-    RGBColor(0x40, 0x40, 0x40),
-];
+/// Straight `0xAARRGGBB` of words and of what is behind all.
+const INK: u32 = 0xff20_2428;
+const PAPER: u32 = 0xffff_ffff;
 
 /// Whether the typeface is there; it is part of the program.
 static READY: LazyLock<bool> =
@@ -47,6 +46,8 @@ pub struct Plot {
     pub title: String,
     /// What grows to the right, on a logarithmic scale, and what upwards.
     pub axes: [String; 2],
+    /// Above the names of lines in the legend: what they say, such as `pixel sampling`. May be empty.
+    pub heading: String,
     /// Lines through points, each with its name in the legend.
     pub series: Vec<PlotSeries>,
 }
@@ -93,11 +94,16 @@ pub fn draw_plot(plot: &Plot, size: [u32; 2]) -> Result<Framebuffer, String> {
     }
     let ranges = ranges(plot).ok_or("there is no point to show")?;
     let mut bytes = vec![0; size[0] as usize * size[1] as usize * 3];
-    draw(plot, ranges, size, &mut bytes).map_err(|error| error.to_string())?;
+    let unit = Unit::of_picture(size);
+    let legend = ChartLegend::new(plot, size, unit);
+    let area = size[0] - legend.width();
+    let places = draw_axes(plot, (ranges, area), size, &mut bytes).map_err(|error| error.to_string())?;
     let mut picture = Framebuffer::new(size[0], size[1]);
     for (pixel, rgb) in picture.pixels_mut().iter_mut().zip(bytes.chunks_exact(3)) {
         *pixel = u32::from_be_bytes([0xFF, rgb[0], rgb[1], rgb[2]]);
     }
+    legend.draw(&mut picture, area);
+    draw_points(plot, &places, &mut picture, unit);
     Ok(picture)
 }
 
@@ -133,10 +139,15 @@ fn ranges(plot: &Plot) -> Option<[[f64; 2]; 2]> {
 
 type Problem<'b> = DrawingAreaErrorKind<<BitMapBackend<'b> as DrawingBackend>::ErrorType>;
 type Area<'b> = DrawingArea<BitMapBackend<'b>, Shift>;
-type Chart<'c, 'b> = ChartContext<'c, BitMapBackend<'b>, Cartesian2d<Axis, Axis>>;
+
+/// Where points are drawn, and where each point of each series lies, in pixels.
+struct Places {
+    inside: PixelRect,
+    points: Vec<Vec<[i64; 2]>>,
+}
 
 /// Pixels of units of letters, which keep their part of the picture.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Unit(f64);
 
 impl Unit {
@@ -154,13 +165,36 @@ impl Unit {
         (self.0 * units).round().max(0.0) as u32
     }
 
+    /// The size of letters whose line is so many units high.
+    #[expect(clippy::cast_possible_truncation, reason = "a part of a picture's side")]
+    fn letters(self, units: f64) -> f32 {
+        // Heights are told from ascent to descent.
+        (self.0 * units / 1.12) as f32
+    }
+
+    /// Pixels across a line.
+    fn line(self) -> f64 {
+        (self.0 * 0.12).max(1.0)
+    }
+
+    /// Pixels from the middle of a point to its edge.
+    fn mark(self) -> f64 {
+        self.0 * 0.34
+    }
+
     /// About how wide a text of this height is: a letter is about half as wide as high.
     fn width(self, text: &str, height: f64) -> f64 {
         self.0 * height * 0.55 * text.chars().count() as f64
     }
 }
 
-fn draw<'b>(plot: &Plot, ranges: [[f64; 2]; 2], size: [u32; 2], bytes: &'b mut [u8]) -> Result<(), Problem<'b>> {
+/// Draws all but points and legend into rows of three bytes a pixel; the chart is `area` pixels wide.
+fn draw_axes<'b>(
+    plot: &Plot,
+    (ranges, area): ([[f64; 2]; 2], u32),
+    size: [u32; 2],
+    bytes: &'b mut [u8],
+) -> Result<Places, Problem<'b>> {
     let unit = Unit::of_picture(size);
     let root = BitMapBackend::with_buffer(bytes, (size[0], size[1])).into_drawing_area();
     root.fill(&WHITE)?;
@@ -168,16 +202,21 @@ fn draw<'b>(plot: &Plot, ranges: [[f64; 2]; 2], size: [u32; 2], bytes: &'b mut [
     let note = if left_out.is_empty() { 0 } else { unit.px(2.0) };
     let (upper, lower) = root.split_vertically(size[1] - note);
     draw_note(&left_out, &lower, unit)?;
-    // Beside the chart, where no point can be.
-    let (area, legend) = upper.split_horizontally(size[0] - legend_width(plot, unit.px(LETTERS), size[0]));
-    draw_legend(plot, &legend, unit.px(LETTERS))?;
-    let ([level, upright], beside) = axes(ranges, area.dim_in_pixel(), unit);
+    // The legend is beside the chart, where no point can be.
+    let (area, _) = upper.split_horizontally(area);
+    let Axes {
+        level,
+        upright,
+        beside,
+        right,
+    } = axes(ranges, area.dim_in_pixel(), unit);
     let title = plain::line(&plot.title);
     // A long name is small rather than cut off.
     let room = f64::from(area.dim_in_pixel().0) - unit.0 * 2.0;
     let letters = 1.5 * (room / unit.width(&title, 1.5).max(1.0)).min(1.0);
     let mut chart = ChartBuilder::on(&area)
         .margin(unit.px(MARGIN))
+        .margin_right(right)
         .caption(title, (FONT, unit.px(letters).max(8)).into_font())
         .x_label_area_size(unit.px(BELOW))
         .y_label_area_size(beside)
@@ -191,13 +230,36 @@ fn draw<'b>(plot: &Plot, ranges: [[f64; 2]; 2], size: [u32; 2], bytes: &'b mut [
         .label_style((FONT, unit.px(NUMBERS)).into_font())
         .axis_desc_style((FONT, unit.px(1.25)).into_font())
         .draw()?;
-    draw_points(plot, &mut chart, &upper, unit)?;
-    root.present()
+    let (x, y) = chart.plotting_area().get_pixel_range();
+    let length = |range: &std::ops::Range<i32>| u32::try_from(range.end - range.start).unwrap_or(0);
+    let inside = PixelRect {
+        x: x.start.into(),
+        y: y.start.into(),
+        width: length(&x),
+        height: length(&y),
+    };
+    let pixel = |(at, _): &([f64; 2], String)| {
+        let (x, y) = chart.backend_coord(&(at[0], at[1]));
+        [x.into(), y.into()]
+    };
+    let points = plot.series.iter().map(|series| shown(series).map(pixel).collect());
+    let points = points.collect();
+    root.present()?;
+    Ok(Places { inside, points })
 }
 
-/// Both axes with the ticks that an area has room for, and the pixels beside the chart that the numbers of the upright one
-/// take.
-fn axes([across, up]: [[f64; 2]; 2], (width, height): (u32, u32), unit: Unit) -> ([Axis; 2], u32) {
+/// Both axes, and what they need beside the chart, in pixels.
+struct Axes {
+    level: Axis,
+    upright: Axis,
+    /// For the numbers of the upright one.
+    beside: u32,
+    /// To the right, for half of the last number of the level one.
+    right: u32,
+}
+
+/// Both axes with the ticks that an area has room for.
+fn axes([across, up]: [[f64; 2]; 2], (width, height): (u32, u32), unit: Unit) -> Axes {
     let high = f64::from(height) - unit.0 * (MARGIN * 2.0 + BELOW + 2.0);
     let upright = Axis::new(Scale::Even, up, |_, apart| apart * high >= unit.0 * NUMBERS * 2.0);
     let widest = upright.ticks().iter().map(|tick| unit.width(&tick.label, NUMBERS));
@@ -207,44 +269,55 @@ fn axes([across, up]: [[f64; 2]; 2], (width, height): (u32, u32), unit: Unit) ->
         let [one, other] = two.map(|tick| unit.width(&tick.label, NUMBERS) / 2.0);
         apart * wide >= one + other + unit.0
     });
-    ([level, upright], unit.px(beside))
+    let beyond = level.ticks().last().map(|last| {
+        let half = unit.width(&last.label, NUMBERS) / 2.0;
+        half / unit.0 - (1.0 - level.part(last.at)) * wide / unit.0
+    });
+    Axes {
+        level,
+        upright,
+        beside: unit.px(beside),
+        right: unit.px(beyond.unwrap_or(0.0).max(0.0) + MARGIN),
+    }
 }
 
-/// Lines through points, the points, and their words.
-fn draw_points<'b>(plot: &Plot, chart: &mut Chart<'_, 'b>, area: &Area<'b>, unit: Unit) -> Result<(), Problem<'b>> {
-    let radius = unit.px(0.3);
-    let colored = || plot.series.iter().zip(COLORS.into_iter().cycle());
-    for (series, color) in colored() {
-        let line = ShapeStyle::from(color).stroke_width(unit.px(0.12).max(1));
-        let places = || shown(series).map(|(at, _)| (at[0], at[1]));
-        chart.draw_series(LineSeries::new(places(), line))?;
-        chart.draw_series(places().map(|at| Circle::new(at, radius, ShapeStyle::from(color).filled())))?;
+/// Lines through points, their words, and above all the points.
+fn draw_points(plot: &Plot, places: &Places, picture: &mut Framebuffer, unit: Unit) {
+    // The middle of the pixel, where upright lines are sharp.
+    let middle = |[x, y]: [i64; 2]| DVec2::new(x as f64, y as f64) + 0.5;
+    let series = || places.points.iter().enumerate();
+    for (number, points) in series() {
+        let points: Vec<DVec2> = points.iter().copied().map(middle).collect();
+        Look::of_series(number).draw_line(picture, &points, unit.line());
     }
-    let (x, y) = chart.plotting_area().get_pixel_range();
-    let length = |range: &std::ops::Range<i32>| u32::try_from(range.end - range.start).unwrap_or(0);
-    let inside = PixelRect {
-        x: x.start.into(),
-        y: y.start.into(),
-        width: length(&x),
-        height: length(&y),
-    };
-    let pixel = |at: &[f64; 2]| {
-        let (x, y) = chart.backend_coord(&(at[0], at[1]));
-        [x.into(), y.into()]
-    };
-    let points = plot.series.iter().flat_map(shown).map(|(at, _)| pixel(at));
-    let mut beside = Beside::new(inside, points, radius);
-    for (series, color) in colored() {
-        for (at, words) in shown(series) {
+    let all = places.points.iter().flatten().copied();
+    let mut beside = Beside::new(places.inside, all, unit.px(0.3));
+    for (series, (number, points)) in plot.series.iter().zip(series()) {
+        let color = Look::of_series(number).color;
+        for ((_, words), at) in shown(series).zip(points) {
             let words = plain::line(words);
-            let style = (FONT, unit.px(1.05)).into_font().color(&color);
-            let (width, height) = area.estimate_text_size(&words, &style)?;
-            let place = beside.place(pixel(at), [width, height]);
-            let place = place.map(|place| i32::try_from(place).unwrap_or(0));
-            area.draw(&Text::new(words, (place[0], place[1]), style))?;
+            let [ink, paper] =
+                [color, PAPER].map(|color| TextBlock::new(&words, TextStyle::new(unit.letters(WORDS), color), None));
+            let [width, height] = ink.size();
+            let place @ [x, y] = beside.place(*at, [width, height]);
+            // What is far from its point is led to it.
+            let nearest = [
+                at[0].clamp(x, x + i64::from(width)),
+                at[1].clamp(y, y + i64::from(height)),
+            ];
+            let (from, to) = (middle(*at), middle(nearest));
+            if width > 0 && from.distance(to) > unit.0 {
+                let width = 1.0;
+                draw_line(picture, from, to, Stroke { color, halo: 0, width });
+            }
+            draw_words(picture, [&ink, &paper], place);
         }
     }
-    Ok(())
+    for (number, points) in series() {
+        for at in points {
+            Look::of_series(number).draw_mark(picture, middle(*at), unit.mark());
+        }
+    }
 }
 
 /// Names the points that no axis can reach.
@@ -267,51 +340,6 @@ fn draw_note<'b>(left_out: &[String], area: &Area<'b>, unit: Unit) -> Result<(),
     area.draw(&Text::new(text, (place[0], place[1]), font))
 }
 
-/// Pixels that the legend takes of a chart's width, for letters of this height; none where no series has a name.
-fn legend_width(plot: &Plot, letters: u32, width: u32) -> u32 {
-    let longest = plot.series.iter().map(|series| series.name.chars().count()).max();
-    let longest = u32::try_from(longest.unwrap_or(0)).unwrap_or(u32::MAX);
-    match longest {
-        0 => 0,
-        // A letter is about half as wide as high. A line before the name, and room around both.
-        longest => (longest.saturating_mul(letters) / 2)
-            .saturating_add(letters * 3)
-            .min(width / 3),
-    }
-}
-
-/// The names of series, one below the other, each after a line of its colour; how many there was no room for.
-fn draw_legend<'b>(plot: &Plot, area: &Area<'b>, letters: u32) -> Result<(), Problem<'b>> {
-    let (_, height) = area.dim_in_pixel();
-    let room = (height / (letters * 3 / 2).max(1)).saturating_sub(3) as usize;
-    let named = || {
-        plot.series
-            .iter()
-            .zip(COLORS.into_iter().cycle())
-            .filter(|(series, _)| !series.name.is_empty())
-    };
-    let letters = i32::try_from(letters).unwrap_or(16);
-    let row = |index: usize| letters * 5 / 2 + i32::try_from(index).unwrap_or(0) * letters * 3 / 2;
-    for (index, (series, color)) in named().take(room).enumerate() {
-        let y = row(index);
-        let style = ShapeStyle::from(color).stroke_width((letters.unsigned_abs() / 9).max(1));
-        area.draw(&PathElement::new(
-            [(0, y + letters / 2), (letters * 3 / 2, y + letters / 2)],
-            style,
-        ))?;
-        area.draw(&Text::new(
-            plain::line(&series.name).into_owned(),
-            (letters * 2, y),
-            (FONT, letters).into_font(),
-        ))?;
-    }
-    if let Some(more) = named().count().checked_sub(room).filter(|more| *more > 0) {
-        let words = format!("and {more} more");
-        area.draw(&Text::new(words, (letters * 2, row(room)), (FONT, letters).into_font()))?;
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -320,6 +348,7 @@ mod tests {
         Plot {
             title: "quality".to_owned(),
             axes: ["time".to_owned(), "error".to_owned()],
+            heading: String::new(),
             series: vec![PlotSeries {
                 name: "nearest".to_owned(),
                 points: points.iter().map(|point| (*point, "4".to_owned())).collect(),
@@ -333,8 +362,7 @@ mod tests {
         // A legend has the colour, too.
         plot.series[0].name.clear();
         let picture = draw_plot(&plot, [600, 400]).expect("a chart");
-        let [r, g, b] = [0x00, 0x72, 0xB2];
-        let color = u32::from_be_bytes([0xFF, r, g, b]);
+        let color = Look::of_series(0).color;
         let columns: Vec<usize> = (0..600)
             .filter(|x| (0..400).any(|y| picture.pixels()[y * 600 + x] == color))
             .collect();
@@ -357,8 +385,7 @@ mod tests {
         let mut plot = plot(&[[1.0, 0.2], [100.0, 0.2], [100.0, 0.1], [100.0, 0.05]]);
         plot.series[0].name = "pixel sampling bilinear, level sampling linear".to_owned();
         let picture = draw_plot(&plot, [900, 600]).expect("a chart");
-        let color = COLORS[0];
-        let color = u32::from_be_bytes([0xFF, color.0, color.1, color.2]);
+        let color = Look::of_series(0).color;
         // Dots are the only squares of six pixels a side in the colour of the series.
         let is_dot =
             |x: usize, y: usize| (0..6).all(|i| (0..6).all(|j| picture.pixels()[(y + j) * 900 + x + i] == color));
@@ -368,7 +395,7 @@ mod tests {
                 dots.push((x, y));
             }
         }
-        assert_eq!(dots.len(), 4, "{dots:?}");
+        assert_eq!(dots.len(), 5, "with the one of the legend: {dots:?}");
     }
 
     #[test]
@@ -386,6 +413,46 @@ mod tests {
             rows.any(|row| row[..150].iter().any(|pixel| *pixel != 0xFFFF_FFFF))
         };
         assert!(!has_words(&before) && has_words(&after), "told below");
+    }
+
+    #[test]
+    fn plot_lines_stay_among_their_points() {
+        // There and back: a line that turns so sharply had a mitre of any length.
+        let mut plot = plot(&[[1.0, 0.2], [100.0, 0.2], [1.02, 0.200_01], [100.0, 0.1]]);
+        plot.series[0].name.clear();
+        for (_, words) in &mut plot.series[0].points {
+            words.clear();
+        }
+        let picture = draw_plot(&plot, [600, 400]).expect("a chart");
+        let is_coloured = |pixel: u32| {
+            let [_, r, _, b] = pixel.to_be_bytes();
+            b > r.saturating_add(60)
+        };
+        let columns = (0..600).filter(|x| (0..400).any(|y| is_coloured(picture.pixels()[y * 600 + x])));
+        let columns: Vec<usize> = columns.collect();
+        let dot = |x: usize| (0..400).filter(|y| is_coloured(picture.pixels()[y * 600 + x])).count();
+        let (first, last) = (columns[0], columns[columns.len() - 1]);
+        assert_eq!(last - first + 1, columns.len(), "from the first to the last");
+        // Both ends are dots, which begin and end less high than they are.
+        assert!(first > 60 && last < 590, "inside the axes: {first}, {last}");
+        assert!(dot(first + 3) > 4 && dot(last - 3) > 4, "dots at both ends");
+    }
+
+    #[test]
+    fn plot_has_room_for_its_last_number() {
+        for right in [0.016, 0.0158, 0.02, 0.0199] {
+            let unit = Unit::of_picture([600, 400]);
+            let Axes {
+                level, beside, right, ..
+            } = axes([[0.01, right], [0.0, 1.0]], (600, 400), unit);
+            let last = level.ticks().last().expect("a number");
+            let wide = f64::from(600 - beside - right) - unit.0 * MARGIN;
+            let end = 600.0 - f64::from(right) - (1.0 - level.part(last.at)) * wide;
+            assert!(
+                end + unit.width(&last.label, NUMBERS) / 2.0 <= 600.0,
+                "{last:?} at {end}"
+            );
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::picture::{Picture, on_threads, spec};
 use super::render::{guard_of, unwritable_by};
 use super::rounded::rounded;
 use crate::compare::{Edge, Line, LinePoint, Profile, ProfileChannel};
-use crate::figure::{Guard, Named, NewFile, save_files};
+use crate::figure::{Guard, Named, NewFile, TableOf, save_files};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::{CancelToken, RenderSettings, Subject, draw_regions};
@@ -75,7 +75,7 @@ struct PixelReport {
 
 /// Measures the edge and prints what was found; writes the table where one was asked for.
 pub(super) fn run(options: &ProfileOptions, restored: Option<&Restored>) -> Result<(), Failure> {
-    let mut guard = guard_of(options.force, restored);
+    let mut guard = guard_of(options.force, restored).of_tables(TableOf::Profile);
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }

@@ -11,7 +11,7 @@ use super::picture::{Picture, on_threads, spec};
 use super::render::{guard_of, name_for_png, unwritable, unwritable_by};
 use super::rounded::rounded;
 use crate::compare::{SpectrumAnalysis, SpectrumOf, SpectrumReading, Wave};
-use crate::figure::{Destination, Guard, Named, NewFile, Record, draw_spectrum, save_files, save_picture};
+use crate::figure::{Destination, Guard, Named, NewFile, Record, TableOf, draw_spectrum, save_files, save_picture};
 use crate::plain;
 use crate::raster::{Framebuffer, Region};
 use crate::scene::Scene;
@@ -71,7 +71,7 @@ struct PeakReport {
 
 /// Finds the waves and prints what was found; writes the picture and the table where they were asked for.
 pub(super) fn run(options: &SpectrumOptions, restored: Option<&Restored>) -> Result<(), Failure> {
-    let mut guard = guard_of(options.force, restored);
+    let mut guard = guard_of(options.force, restored).of_tables(TableOf::Spectrum);
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }

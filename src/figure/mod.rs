@@ -35,7 +35,7 @@ pub use callout::{InsetError, InsetPlace, InsetSpec, add_furniture};
 pub use inset::Inset;
 pub use legend::{add_legends, draw_legend, place_legends};
 pub use magnify::magnified;
-pub use output::{Destination, Guard, Named, NewFile, Unwritable, open_log, save_files, write_new, writing};
+pub use output::{Destination, Guard, Named, NewFile, TableOf, Unwritable, open_log, save_files, write_new, writing};
 pub use placement::{Corner, corners, place};
 #[cfg(feature = "cli")]
 pub use plot::{Plot, PlotSeries, draw_plot};

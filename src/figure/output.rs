@@ -5,7 +5,8 @@
 //! | nothing, or an empty file | is written | is written |
 //! | a file that is read for it | is refused | is refused |
 //! | a picture, for a picture | is replaced | only one with our record, or with `force` |
-//! | a text or table, for one | only one of our making, or with `force` | the same |
+//! | a text, for one | only one of our making, or with `force` | the same |
+//! | a table, for one | only one of the same command, or with `force` | the same |
 //! | what the new file begins with | is replaced | is replaced |
 //! | a link | leads to what is asked | the same |
 //! | a link to nothing, a folder, a device, a pipe | is refused | is refused |
@@ -20,15 +21,6 @@ use crate::scene::{FileDigest, FolderResources};
 
 /// What texts of ours carry in their head, as a comment or as HTML's generator.
 pub(super) const MARK: &str = "made by rasterscope";
-/// What the head of a table of ours holds: the columns of a sweep (also as Markdown), of a frame log, of a profile, and of a
-/// spectrum.
-const TABLES: [&str; 5] = [
-    "median_ms,min_ms,",
-    "median_ms | min_ms |",
-    "at,shows,behind,draw,",
-    "distance,x,y,red,green,",
-    "across,down,wavelength,",
-];
 /// So much of a file is searched for them, in bytes.
 const HEAD: u64 = 1024;
 /// Names that are tried for a file that is not whole yet.
@@ -44,6 +36,50 @@ pub enum Named {
     ByUser,
     /// The program, such as `01.png` in a folder that the user named.
     ByProgram,
+}
+
+/// Whose table it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableOf {
+    /// What a sweep measured, also as Markdown.
+    Sweep,
+    /// The colours along a line.
+    Profile,
+    /// The waves of a picture.
+    Spectrum,
+    /// What each frame of the window cost.
+    FrameLog,
+}
+
+impl TableOf {
+    const ALL: [Self; 4] = [Self::Sweep, Self::Profile, Self::Spectrum, Self::FrameLog];
+
+    /// One of these stands in its first line.
+    fn heads(self) -> &'static [&'static str] {
+        match self {
+            Self::Sweep => &["median_ms,min_ms,", "median_ms | min_ms |"],
+            Self::Profile => &["distance,x,y,red,green,"],
+            Self::Spectrum => &["across,down,wavelength,"],
+            Self::FrameLog => &["at,shows,behind,draw,"],
+        }
+    }
+
+    /// What people call what it tells.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Sweep => "a sweep",
+            Self::Profile => "a profile",
+            Self::Spectrum => "a spectrum",
+            Self::FrameLog => "a window's frames",
+        }
+    }
+
+    /// Of the table that begins so.
+    fn of_head(head: &str) -> Option<Self> {
+        let first = head.lines().next().unwrap_or("");
+        let is_of = |table: &Self| table.heads().iter().any(|known| first.contains(known));
+        Self::ALL.into_iter().find(is_of)
+    }
 }
 
 /// Where a file is to be written, and who chose its name.
@@ -103,6 +139,8 @@ pub struct Guard {
     inputs: Vec<PathBuf>,
     /// Of files that are read by names which only documents know.
     contents: Vec<FileDigest>,
+    /// Whose tables are written, if any are.
+    tables: Option<TableOf>,
     force: bool,
 }
 
@@ -125,6 +163,13 @@ impl Guard {
     pub fn with(mut self, input: impl Into<PathBuf>) -> Self {
         self.protect(input);
         self
+    }
+
+    /// The same where the texts that are written are such tables: those of other commands are protected.
+    #[must_use]
+    pub fn of_tables(self, tables: TableOf) -> Self {
+        let tables = Some(tables);
+        Self { tables, ..self }
     }
 
     /// Protects every file with these contents, even against `force`: a texture has many addresses.
@@ -156,10 +201,26 @@ impl Guard {
         if self.is_read(&target) {
             return refused("this file is read for it and would be lost");
         }
-        if about.len() == 0 || self.force || is_ours(&target, named) {
+        if about.len() == 0 || self.force {
             return Ok(target);
         }
-        refused("a file of that name is there that rasterscope did not make, and only --force replaces it")
+        let there = if is_picture(&target) {
+            Maker::of_picture(&target, named)
+        } else {
+            Maker::of_text(&target)
+        };
+        match there {
+            Maker::Replaceable if self.tables.is_none() || is_picture(&target) => Ok(target),
+            Maker::Table(table) if self.tables == Some(table) => Ok(target),
+            Maker::Table(table) => refused(&format!(
+                "the table of {} is there, which only --force replaces",
+                table.name()
+            )),
+            Maker::Replaceable => refused("another text of rasterscope is there, which only --force replaces"),
+            Maker::Stranger => {
+                refused("a file of that name is there that rasterscope did not make, and only --force replaces it")
+            }
+        }
     }
 
     fn is_read(&self, target: &Path) -> bool {
@@ -280,23 +341,51 @@ fn is_same(input: &Path, target: &Path) -> bool {
     }
 }
 
-/// Whether what is there may go: a picture that the user named, or what this program made.
-fn is_ours(target: &Path, named: Named) -> bool {
+/// Who made a file that is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Maker {
+    /// This program, or the user, who named a picture that may go.
+    Replaceable,
+    /// This program, as a table.
+    Table(TableOf),
+    /// Somebody else.
+    Stranger,
+}
+
+impl Maker {
+    fn of_picture(target: &Path, named: Named) -> Self {
+        // A record of a later version is one of ours as well, and so is a damaged one.
+        let has_record = || !matches!(Record::of_file(target), Ok(None) | Err(RecordError::Io(_)));
+        if named == Named::ByUser || has_record() {
+            Self::Replaceable
+        } else {
+            Self::Stranger
+        }
+    }
+
+    fn of_text(target: &Path) -> Self {
+        let mut head = Vec::new();
+        let read = File::open(target).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+        if read.is_err() {
+            return Self::Stranger;
+        }
+        let head = String::from_utf8_lossy(&head);
+        match TableOf::of_head(&head) {
+            Some(table) => Self::Table(table),
+            None if head.contains(MARK) => Self::Replaceable,
+            None => Self::Stranger,
+        }
+    }
+}
+
+/// Whether a file's name is that of a picture.
+fn is_picture(target: &Path) -> bool {
     let has_ending = |ending| {
         target
             .extension()
             .is_some_and(|known| known.eq_ignore_ascii_case(ending))
     };
-    if ["png", "jpg", "jpeg"].into_iter().any(has_ending) {
-        // A record of a later version is one of ours as well, and so is a damaged one.
-        let has_record = || !matches!(Record::of_file(target), Ok(None) | Err(RecordError::Io(_)));
-        return named == Named::ByUser || has_record();
-    }
-    let mut head = Vec::new();
-    let read = File::open(target).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    let head = String::from_utf8_lossy(&head);
-    let first = head.lines().next().unwrap_or("");
-    read.is_ok() && (head.contains(MARK) || TABLES.iter().any(|table| first.contains(table)))
+    ["png", "jpg", "jpeg"].into_iter().any(has_ending)
 }
 
 #[cfg(test)]
@@ -318,7 +407,7 @@ mod tests {
         let at = |name: &str| folder.path().join(name);
         let foreign = encode_png(&Framebuffer::new(2, 1), None).expect("it has pixels");
         let own = encode_png(&Framebuffer::new(2, 1), Some(&Record::default())).expect("it has pixels");
-        let texts: [(&str, &[u8], Named, bool); 9] = [
+        let texts: [(&str, &[u8], Named, bool); 8] = [
             ("a.png", &foreign, Named::ByUser, true),
             ("a.png", b"no picture", Named::ByUser, true),
             ("a.png", &foreign, Named::ByProgram, false),
@@ -326,12 +415,6 @@ mod tests {
             ("a.md", b"# My notes\n", Named::ByProgram, false),
             ("a.md", b"<!-- made by rasterscope -->\n", Named::ByProgram, true),
             ("a.csv", b"name,points\r\nme,9\r\n", Named::ByUser, false),
-            (
-                "a.csv",
-                b"sample_rate,median_ms,min_ms,peak_mb\r\n",
-                Named::ByUser,
-                true,
-            ),
             ("a.html", b"", Named::ByProgram, true),
         ];
         for (name, bytes, named, may) in texts {
@@ -342,6 +425,36 @@ mod tests {
             assert_eq!(kept, if may { b"new" } else { bytes }, "{name}");
             let forced = saved(&at(name), named, &Guard::new(true));
             assert_eq!(forced, Ok(()), "{name} with force");
+        }
+    }
+
+    #[test]
+    fn output_replaces_tables_of_its_own_kind_only() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.csv");
+        let sweep: &[u8] = b"sample_rate,median_ms,min_ms,peak_mb\r\n";
+        let markdown: &[u8] = b"| sample_rate | median_ms | min_ms | peak_mb |\n";
+        let waves: &[u8] = b"across,down,wavelength,angle\r\n";
+        let page: &[u8] = b"<!-- made by rasterscope -->\n";
+        for (bytes, tables, may) in [
+            (sweep, Some(TableOf::Sweep), true),
+            (markdown, Some(TableOf::Sweep), true),
+            (sweep, Some(TableOf::Profile), false),
+            (waves, Some(TableOf::Profile), false),
+            (waves, Some(TableOf::Spectrum), true),
+            (sweep, None, false),
+            (page, Some(TableOf::Sweep), false),
+        ] {
+            fs::write(&path, bytes).expect("a small file");
+            let guard = |force| {
+                let guard = Guard::new(force);
+                tables.map_or(guard.clone(), |tables| guard.of_tables(tables))
+            };
+            let saved_it = saved(&path, Named::ByUser, &guard(false));
+            assert_eq!(saved_it.is_ok(), may, "{tables:?}: {saved_it:?}");
+            let told = saved_it.err().is_none_or(|why| why.contains("only --force"));
+            assert!(told, "{tables:?} says the cure");
+            assert_eq!(saved(&path, Named::ByUser, &guard(true)), Ok(()), "with force");
         }
     }
 

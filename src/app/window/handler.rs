@@ -26,7 +26,7 @@ use super::wake::Wake;
 use super::watch::Watch;
 use super::whole_pixels;
 use super::winit_keys;
-use crate::figure::Guard;
+use crate::figure::{Guard, TableOf};
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Command, PointerButton, SceneCommand, Theme, Toggle, Viewer, ViewerOptions, Waker, WindowCommand};
 
@@ -83,7 +83,7 @@ impl Handler {
         let chosen = self.options.theme.or(self.remembered.theme());
         // Answered while the window opens.
         let asked = chosen.is_none().then(|| ThemeQuestion::ask(self.proxy.clone()));
-        let guard = Guard::new(self.options.force);
+        let guard = Guard::new(self.options.force).of_tables(TableOf::FrameLog);
         let log = self.options.frame_log.as_deref();
         let log = log.map(|path| FrameLog::create(path, &guard)).transpose()?;
         let [width, height] = self.first_size(event_loop);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::failure::Failure;
 use crate::cli::options::sweep::SweepOptions;
 use crate::cli::render::{guard_of, name_for_png, unwritable_by};
-use crate::figure::{Guard, Named, Record};
+use crate::figure::{Guard, Named, Record, TableOf};
 use crate::viewer::{Restored, SceneSource};
 
 /// Where the chart goes.
@@ -53,7 +53,7 @@ pub(super) fn chart_named(options: &SweepOptions) -> Named {
 
 /// Protects what is read, and says before minutes of work what must not be replaced.
 pub(super) fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, Failure> {
-    let mut guard = guard_of(options.force, restored);
+    let mut guard = guard_of(options.force, restored).of_tables(TableOf::Sweep);
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }

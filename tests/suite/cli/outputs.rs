@@ -188,6 +188,21 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
     refused(folder, &sweep("points.csv"), &["points.csv", "--force"]);
     done(folder, &sweep("own.csv"));
     done(folder, &sweep("own.csv"));
+    // A table of another command is none of its own making.
+    let profile = [
+        "profile",
+        "gallery:basic/test4.svg",
+        "--line=2,5,30,20",
+        "--csv",
+        "own.csv",
+        SMALL,
+    ];
+    refused(folder, &profile, &["own.csv", "table of a sweep", "--force"]);
+    let spectrum = ["spectrum", "gallery:basic/test4.svg", "--csv", "own.csv", SMALL];
+    refused(folder, &spectrum, &["own.csv", "table of a sweep", "--force"]);
+    done(folder, &[&profile[..], &["--force"]].concat());
+    done(folder, &profile);
+    refused(folder, &sweep("own.csv"), &["own.csv", "table of a profile", "--force"]);
     // The chart beside the table has a name that nobody said.
     done(folder, &["render", "gallery:basic/test4.svg", "-o", "drawn.png", SMALL]);
     let drawn = fs::read(at("drawn.png")).unwrap();

@@ -15,7 +15,9 @@ use crate::figure::{Destination, Guard, Named, NewFile, Record, TableOf, draw_sp
 use crate::plain;
 use crate::raster::{Framebuffer, Region};
 use crate::scene::Scene;
-use crate::viewer::{PictureSpec, Restored, SceneSource, SpectrumFound, SpectrumPlace, scene_title, spectrum_of};
+use crate::viewer::{
+    PictureSpec, Restored, SceneSource, SpectrumFound, SpectrumPlace, conditions_of, scene_title, spectrum_of,
+};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
 const SHAPE: u32 = 1;
@@ -200,7 +202,8 @@ impl Report {
 
     /// What the picture says above: no folder, for one that is drawn again from elsewhere must be the same.
     fn heading(&self, options: &SpectrumOptions) -> String {
-        self.title(&scene_title(&SceneSource::from_address(&options.scene)))
+        let title = self.title(&scene_title(&SceneSource::from_address(&options.scene)));
+        format!("{title}\n{}", conditions_of(&own(options)))
     }
 
     /// What it is of, and where.

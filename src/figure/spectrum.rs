@@ -27,8 +27,6 @@ const BOX: Stroke = Stroke {
     halo: 0xff00_0000,
     width: 1.0,
 };
-/// Marks along an axis.
-const MARKS: i32 = 6;
 
 /// Draws a spectrum with its axes on white, below a `title`.
 pub fn draw_spectrum(analysis: &SpectrumAnalysis, title: &str) -> Framebuffer {
@@ -80,10 +78,11 @@ fn axes(picture: &mut Framebuffer, square: &PixelRect, analysis: &SpectrumAnalys
     };
     let half = i64::from(TEXT.line_height() / 2);
     let gap = i64::from(2 * MARK);
-    for mark in 0..=MARKS {
-        let part = f64::from(mark) / f64::from(MARKS);
-        let text = TextBlock::new(&format!("{:.2}", (2.0 * part - 1.0) * reach), TEXT, None);
-        let along = i64::from(SIDE) * i64::from(mark) / i64::from(MARKS);
+    let marks = marks(reach);
+    for mark in 0..=marks {
+        let part = f64::from(mark) / f64::from(marks);
+        let text = TextBlock::new(&frequency((2.0 * part - 1.0) * reach), TEXT, None);
+        let along = i64::from(SIDE) * i64::from(mark) / i64::from(marks);
         let (x, y) = (square.x + along, square.y + along);
         let (short, long) = (1, MARK);
         let ticks = [
@@ -101,6 +100,17 @@ fn axes(picture: &mut Framebuffer, square: &PixelRect, analysis: &SpectrumAnalys
     across.draw(picture, [square.x + i64::from(SIDE / 2), below], Anchor::Center);
 }
 
+/// Into how many parts the marks divide an axis: eighths of a cycle where half a cycle is the highest frequency, else quarters.
+fn marks(reach: f64) -> i32 {
+    if reach > 1.25 { 12 } else { 8 }
+}
+
+/// A mark's number, which is a multiple of an eighth.
+fn frequency(at: f64) -> String {
+    let text = format!("{at:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// What colours mean.
 fn legend(analysis: &SpectrumAnalysis) -> Legend {
     let [low, high] = DECIBELS;
@@ -111,11 +121,11 @@ fn legend(analysis: &SpectrumAnalysis) -> Legend {
     Legend {
         title: match analysis.of() {
             SpectrumOf::Frame | SpectrumOf::Difference => {
-                "dB below a wave from black to white. Coloured: aliases of waves that are"
+                "dB; 0 is a wave from black to white. Coloured: aliases of waves that are"
             }
-            SpectrumOf::Texture => "dB below a wave from black to white. Coloured: what is for pixels",
+            SpectrumOf::Texture => "dB; 0 is a wave from black to white. Coloured: what is for pixels",
             SpectrumOf::Scene => {
-                "dB below a wave from black to white. Coloured, also where they land in the box: waves that are"
+                "dB; 0 is a wave from black to white. Coloured, also where they land in the box: waves that are"
             }
         },
         key: LegendKey::Scale(colors.collect(), ticks.to_vec()),
@@ -128,6 +138,26 @@ mod tests {
     use super::*;
     use crate::texture::MipLevel;
     use glam::DAffine2;
+
+    #[test]
+    fn axes_have_numbers_of_few_digits() {
+        let all = |reach: f64| -> Vec<String> {
+            let count = marks(reach);
+            let part = |mark| f64::from(mark) / f64::from(count);
+            (0..=count)
+                .map(|mark| frequency((2.0 * part(mark) - 1.0) * reach))
+                .collect()
+        };
+        let expected = [
+            "-0.5", "-0.375", "-0.25", "-0.125", "0", "0.125", "0.25", "0.375", "0.5",
+        ];
+        assert_eq!(all(0.5), expected, "what pixels can show");
+        assert_eq!(
+            all(1.5)[6..],
+            ["0", "0.25", "0.5", "0.75", "1", "1.25", "1.5"],
+            "of a scene"
+        );
+    }
 
     #[test]
     fn figure_marks_waves_and_the_box() {

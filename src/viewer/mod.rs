@@ -77,7 +77,7 @@ pub use control::window::WindowContent;
 pub use export::naming::NameTemplate;
 pub use export::restored::{Grammar, ReadArguments, Restored, changed_inputs, found_file};
 pub use export::sheet::axes::{Axis, AxisLists, Choice};
-pub use export::sheet::captions::{caption_of, title as scene_title};
+pub use export::sheet::captions::{caption_of, conditions_of, title as scene_title};
 pub use export::sheet::desk::SheetDesk;
 pub use export::sheet::draft::{PanelSize, SheetChange, SheetDraft, SheetSide};
 pub use export::sheet::drawing::{Panel, SceneReader, Sheet, SheetRequest};

@@ -232,15 +232,15 @@ fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
 fn legend(ui: &mut Ui, found: &SpectrumFound) {
     let tip = match found.analysis.of() {
         SpectrumOf::Scene => {
-            "Lighter is stronger, in dB below a wave from black to white. In colours are the waves outside of the box, which are \
+            "Lighter is stronger, in dB: a wave from black to white has 0. In colours are the waves outside of the box, which are \
              too fine for pixels, and where they land in it with one sample for each."
         }
         SpectrumOf::Texture => {
-            "Lighter is stronger, in dB below a wave from black to white. The box holds what pixels can show of the texels; what \
+            "Lighter is stronger, in dB: a wave from black to white has 0. The box holds what pixels can show of the texels; what \
              is outside is in colours."
         }
         SpectrumOf::Frame | SpectrumOf::Difference => {
-            "Lighter is stronger, in dB below a wave from black to white. In colours is what the scene has too fine for pixels, and \
+            "Lighter is stronger, in dB: a wave from black to white has 0. In colours is what the scene has too fine for pixels, and \
              lands here."
         }
     };

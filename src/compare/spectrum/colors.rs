@@ -8,7 +8,7 @@ use super::waves::decibels;
 use super::{Band, SpectrumAnalysis};
 use crate::raster::Framebuffer;
 
-/// What is dark and what is white, in dB below a wave from black to white: pictures have few waves that are stronger, or none.
+/// What is dark and what is white, in dB, where a wave from black to white has 0: pictures have few waves that are stronger, or none.
 pub const DECIBELS: [f64; 2] = [-80.0, -20.0];
 /// What has no wave, and what has the strongest: opaque `0xAARRGGBB`.
 const ENDS: [u32; 2] = [0xff0a_0c10, 0xffff_ffff];

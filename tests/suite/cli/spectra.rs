@@ -170,6 +170,24 @@ fn spectrum_writes_a_picture_and_a_table() {
 }
 
 #[test]
+fn spectrum_pictures_say_their_settings() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    let heading = |more: &[&str]| {
+        done(
+            folder.path(),
+            &[&["spectrum", "stripes.svg", "-o", "s.png"], VIEW, more].concat(),
+        );
+        let picture = image::open(folder.path().join("s.png")).unwrap().into_rgba8();
+        // Above the square.
+        image::imageops::crop_imm(&picture, 0, 0, picture.width(), 48).to_image()
+    };
+    let (plain, other) = (heading(&[]), heading(&["--pattern=sobol"]));
+    assert!(plain != other, "a setting is told");
+    assert!(heading(&[]) == plain, "always the same");
+}
+
+#[test]
 fn spectrum_says_what_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();

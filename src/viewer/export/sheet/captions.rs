@@ -23,6 +23,17 @@ pub fn caption_of(spec: &PictureSpec) -> String {
     format!("{}.", parts.collect::<Vec<_>>().join(". "))
 }
 
+/// What a measure of a picture says of it: the settings that differ from their defaults, size and view.
+pub fn conditions_of(spec: &PictureSpec) -> String {
+    let settings = Some(shared_words(spec, |_| false)).filter(|settings| !settings.is_empty());
+    let parts: Vec<String> = settings.into_iter().chain(seen(spec, "")).collect();
+    let mut said = format!("{}.", parts.join(". "));
+    if let Some(first) = said.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    said
+}
+
 /// What the values of axes are called. Patterns may bring numbers of samples of their own: then each is told with its number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::viewer) struct Labels {
@@ -161,4 +172,32 @@ fn seen(spec: &PictureSpec, each: &str) -> Vec<String> {
         ));
     }
     parts
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::geometry::View;
+    use crate::raster::SamplePattern;
+    use crate::render::RenderSettings;
+    use crate::scene::DialectChoice;
+
+    #[test]
+    fn conditions_tell_what_differs_from_the_defaults() {
+        let mut spec = PictureSpec {
+            scene: SceneSource::from_address(Path::new("gallery:basic/test4.svg")),
+            size: [200, 160],
+            view: View::Default,
+            render: RenderSettings::default(),
+            dialect: DialectChoice::default(),
+            insets: Vec::new(),
+            legend: false,
+        };
+        assert_eq!(conditions_of(&spec), "200 \u{d7} 160 pixels, view default.", "nothing");
+        spec.render.pattern = SamplePattern::Sobol;
+        let said = "Pattern sobol. 200 \u{d7} 160 pixels, view default.";
+        assert_eq!(conditions_of(&spec), said, "a setting");
+    }
 }

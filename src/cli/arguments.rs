@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use super::completions::completions;
 use super::examples::with_examples;
 use super::failure::{Failure, one_line};
 use super::help;
@@ -135,7 +136,7 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
         return Err(Failure::Text(page));
     }
     let program = with_examples(Arguments::command());
-    for made in [help::man_page, help::completions] {
+    for made in [help::man_page, completions] {
         if let Some(page) = made(&words, &program) {
             return Err(page.map_or_else(Failure::Input, Failure::Text));
         }

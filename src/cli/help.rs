@@ -2,8 +2,7 @@
 
 use std::ffi::OsString;
 
-use clap::{Command, ValueEnum as _};
-use clap_complete::Shell;
+use clap::Command;
 use clap_mangen::Man;
 
 use crate::plain;
@@ -25,7 +24,7 @@ const PATTERNS: &str = "<!-- patterns -->";
 const VISUALISATIONS: &str = "<!-- visualisations -->";
 
 /// The pages with their names.
-const PAGES: [(&str, &str); 9] = [
+pub(super) const PAGES: [(&str, &str); 9] = [
     ("options", include_str!("help/options.md")),
     ("keys", include_str!("help/keys.md")),
     ("pixels", include_str!("help/pixels.md")),
@@ -85,30 +84,6 @@ pub(super) fn man_page(words: &[OsString], program: &Command) -> Option<Result<S
     // Writing to memory cannot fail.
     let _ = Man::new(command).render(&mut page);
     Some(Ok(String::from_utf8_lossy(&page).into_owned()))
-}
-
-/// What completes the program's words in a shell, where the words of a command line ask for it.
-///
-/// # Errors
-/// One line where there is none for that shell.
-pub(super) fn completions(words: &[OsString], program: &Command) -> Option<Result<String, String>> {
-    let [_, help, completions, name] = words else {
-        return None;
-    };
-    if help != "help" || completions != "completions" {
-        return None;
-    }
-    let name = name.to_string_lossy();
-    let Ok(shell) = Shell::from_str(&name, true) else {
-        let shells: Vec<_> = Shell::value_variants().iter().map(ToString::to_string).collect();
-        let (name, shells) = (plain::line(&name), shells.join(", "));
-        return Some(Err(format!(
-            "{name}: no completions for this shell; there are some for {shells}"
-        )));
-    };
-    let mut script = Vec::new();
-    clap_complete::generate(shell, &mut program.clone(), program.get_name(), &mut script);
-    Some(Ok(String::from_utf8_lossy(&script).into_owned()))
 }
 
 /// The picture settings as lines of a table in Markdown: option, values, default, what it means.

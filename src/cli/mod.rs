@@ -6,6 +6,7 @@
 mod arguments;
 mod bench;
 mod board;
+mod completions;
 mod diff;
 mod examples;
 mod failure;

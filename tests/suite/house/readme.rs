@@ -312,6 +312,10 @@ fn help_has_completions_of_every_command_and_option() {
     let line = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2), "{line}");
     assert!(line.contains("tcsh") && line.contains("zsh"), "{line}");
+    let asked = Command::new(program).args(["help", "completions"]).output().unwrap();
+    let line = String::from_utf8(asked.stderr).unwrap();
+    assert_eq!(asked.status.code(), Some(2), "{line}");
+    assert!(line.contains("which shell") && line.contains("zsh"), "{line}");
 }
 
 #[cfg(target_os = "linux")]
@@ -327,6 +331,19 @@ fn completions_complete_in_a_shell() {
         String::from_utf8_lossy(&answer.stdout).trim(),
         "--pattern",
         "{answer:?}"
+    );
+    let ask = "source <(\"$0\" help completions bash); COMP_WORDS=(rasterscope help op); COMP_CWORD=2; \
+               _rasterscope rasterscope op help; echo \"${COMPREPLY[@]}\"; \
+               COMP_WORDS=(rasterscope board --vary patt); COMP_CWORD=3; \
+               _rasterscope rasterscope patt --vary; echo \"${COMPREPLY[@]}\"";
+    let answer = Command::new("bash")
+        .args(["-c", ask, env!("CARGO_BIN_EXE_rasterscope")])
+        .output()
+        .unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(&answer.stdout).trim(),
+        "options\npattern",
+        "a page and a setting: {answer:?}"
     );
 }
 

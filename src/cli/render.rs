@@ -45,6 +45,12 @@ fn ask_for(path: &Path) -> Result<(), Failure> {
 
 /// Every scene below a folder, into a folder of the same shape.
 fn folder(options: &RenderOptions) -> Result<(), Failure> {
+    if options.output.exists() && !options.output.is_dir() {
+        return Err(Failure::input(format!(
+            "{}: there is a file of that name, and the pictures of a folder go into one; give a folder with -o",
+            options.output.display()
+        )));
+    }
     let (entries, problems) = list_scenes(std::slice::from_ref(&options.scene));
     if let Some(problem) = problems.into_iter().next() {
         return Err(Failure::Input(problem));
@@ -193,6 +199,14 @@ pub(super) fn unwritable_by(option: &str, path: &Path, error: &io::Error) -> Fai
         let path = path.display();
         return Failure::other(format!(
             "{path}: not written: out of memory; close other programs, or draw fewer pixels with --size"
+        ));
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| error.kind() == io::ErrorKind::NotFound && !folder.exists()) {
+        return Failure::input(format!(
+            "{}: cannot write here: there is no folder {}; make it, or choose another place with {option}",
+            path.display(),
+            folder.display()
         ));
     }
     let line = format!(

@@ -41,13 +41,13 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     let mut pins = Pins::read(pins_file, &known_pins())?;
     forget_stale_pin(&scenes, &mut pins)?;
     let inner = folder.join("scenes");
-    std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
     let guard = guard(options, options.force);
-    // Asked before minutes of work.
+    // Asked before minutes of work, and before a folder is made.
     for page in PAGES.map(|name| folder.join(name)) {
         let target = guard.target(&page, Named::ByProgram);
         target.map_err(|error| unwritable(&page, &error))?;
     }
+    std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
     save_files(&made_scenes(&scenes, &inner), &guard).map_err(|(path, error)| unwritable(&path, &error))?;
     let figures = on_threads(options.threads, || all(options, &guard, &scenes, &mut pins))??;
     let title = "Figures of the write-up";

@@ -183,6 +183,12 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
     let output = run(folder, &["render", "in", "-o", "in", SMALL]);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     assert_eq!(fs::read(at("in/a.png")).unwrap(), foreign, "kept");
+    fs::write(at("in/b.svg"), SCENE).unwrap();
+    refused(
+        folder,
+        &["render", "in", "-o", "other.png", SMALL],
+        &["other.png", "a file", "folder with -o"],
+    );
     fs::write(at("points.csv"), "name,points\nme,9\n").unwrap();
     let sweep = |table| ["sweep", "gallery:basic/test4.svg", "--csv", table, SMALL, "--frames=1"];
     refused(folder, &sweep("points.csv"), &["points.csv", "--force"]);

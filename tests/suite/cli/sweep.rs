@@ -195,7 +195,10 @@ fn sweep_refuses_before_it_measures() {
             vec!["a.svg", "--csv", "t.csv", "--sample-rate=1,5"],
             vec!["5", "square"],
         ),
-        (vec!["a.svg", "--csv", "nowhere/t.csv"], vec!["nowhere", "cannot write"]),
+        (
+            vec!["a.svg", "--csv", "nowhere/t.csv"],
+            vec!["nowhere/t.csv: cannot write", "no folder nowhere", "make it"],
+        ),
         (vec!["a.svg", "--csv", "t.png"], vec!["t.png", "one file"]),
         (
             vec!["a.svg", "--csv", "t.csv", "--plot", "t.jpg"],

@@ -156,6 +156,12 @@ fn writeup_at_fault_is_told_in_one_line() {
         &["-o", "out", "--pins", "pins.toml"],
         &["pins.toml: line 1: no figure has the pin test9; the pins are test4, texture, own,"],
     );
+    // Somebody else's page: nothing is put beside it.
+    fs::create_dir(folder.path().join("page")).unwrap();
+    fs::write(folder.path().join("page/index.html"), "mine").unwrap();
+    refused(&["-o", "page"], &["page/index.html", "--force"]);
+    let names = fs::read_dir(folder.path().join("page")).unwrap().count();
+    assert_eq!(names, 1, "no folder of scenes");
 }
 
 /// Fat corners and thin slivers; a lower edge that nearly fills a row of pixels at the size of one figure but not of another.

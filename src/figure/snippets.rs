@@ -135,10 +135,20 @@ fn in_html(text: &str) -> String {
     escaped
 }
 
+/// A text as LaTeX prints it: also in the encoding OT1, whose letters have other signs in the places of `<`, `>` and `|`.
 fn in_latex(text: &str) -> String {
     let mut escaped = String::new();
+    // A straight quotation mark closes what the one before it opened.
+    let mut is_open = false;
     for character in plain::line(text).chars() {
         match character {
+            '<' => escaped.push_str("\\textless{}"),
+            '>' => escaped.push_str("\\textgreater{}"),
+            '|' => escaped.push_str("\\textbar{}"),
+            '"' => {
+                escaped.push_str(if is_open { "''" } else { "``" });
+                is_open = !is_open;
+            }
             '\\' => escaped.push_str("\\textbackslash{}"),
             '~' => escaped.push_str("\\textasciitilde{}"),
             '^' => escaped.push_str("\\textasciicircum{}"),
@@ -208,9 +218,11 @@ mod tests {
             "an address that is the file's"
         );
         assert!(
-            text.contains("50 \\% of <b> \\& \\{x\\}\\_1 \\#2 \\textbackslash{} 8$\\times$"),
+            text.contains("50 \\% of \\textless{}b\\textgreater{} \\& \\{x\\}\\_1 \\#2 \\textbackslash{} 8$\\times$"),
             "{text}"
         );
+        assert!(text.contains("{a ``star'' [1]}"), "{text}");
+        assert_eq!(in_latex("a|b"), "a\\textbar{}b", "a bar");
     }
 
     #[test]

@@ -3,15 +3,22 @@
 use std::io;
 use std::path::Path;
 
-use ::png::{BitDepth, ColorType, Compression, Encoder, Filter};
+use ::png::{BitDepth, ColorType, Compression, Encoder, Filter, PixelDimensions, Unit};
 
 use super::output::{Destination, Guard, NewFile, save_files};
 use super::record::{KEYWORD, Record};
 use crate::memory;
 use crate::raster::Framebuffer;
 
+/// 300 dots per inch, as sheets are laid out for: a page's width is 16 cm.
+const PRINT: PixelDimensions = PixelDimensions {
+    xppu: 11_811,
+    yppu: 11_811,
+    unit: Unit::Meter,
+};
+
 /// A frame as the bytes of a PNG file: 8-bit RGB, or RGBA with straight alpha where a pixel is not opaque. `record` stands
-/// before the pixels.
+/// before the pixels, and figures for print say how large they are on paper.
 ///
 /// # Errors
 /// When the frame has no pixels.
@@ -37,6 +44,9 @@ pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Ve
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_filter(Filter::Adaptive);
+    if record.is_some_and(Record::is_for_print) {
+        encoder.set_pixel_dims(Some(PRINT));
+    }
     if let Some(record) = record {
         encoder.add_itxt_chunk(KEYWORD.to_owned(), record.to_json()?)?;
     }
@@ -100,6 +110,24 @@ mod tests {
             1,
             "no other file is left"
         );
+    }
+
+    #[test]
+    fn png_of_figures_has_their_size_on_paper() {
+        let size_of = |verb: &str| {
+            let arguments = vec![verb.to_owned(), "a.svg".to_owned()];
+            let record = Record {
+                arguments,
+                ..Record::default()
+            };
+            let bytes = encode_png(&Framebuffer::new(2, 1), Some(&record)).expect("it has pixels");
+            let reader = ::png::Decoder::new(io::Cursor::new(bytes)).read_info().expect("a PNG");
+            reader.info().pixel_dims.map(|size| [size.xppu, size.yppu])
+        };
+        for verb in ["sheet", "board", "sweep", "spectrum"] {
+            assert_eq!(size_of(verb), Some([11_811; 2]), "{verb}");
+        }
+        assert_eq!(size_of("render"), None, "pixels have none");
     }
 
     #[cfg(unix)]

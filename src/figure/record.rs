@@ -27,6 +27,8 @@ use serde::{Deserialize, Serialize};
 
 /// The chunk's keyword.
 pub(super) const KEYWORD: &str = "rasterscope";
+/// Commands whose pictures are laid out for paper.
+const PRINTED: [&str; 4] = ["sheet", "board", "sweep", "spectrum"];
 /// What every PNG file starts with.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Largest chunk that is read, in bytes.
@@ -96,6 +98,12 @@ pub enum RecordError {
 impl Record {
     /// The version that is written.
     pub const VERSION: u32 = 1;
+
+    /// Whether its picture is a figure that is laid out for paper, not pixels of a scene.
+    pub(super) fn is_for_print(&self) -> bool {
+        let verb = self.arguments.first().map(String::as_str);
+        verb.is_some_and(|verb| PRINTED.contains(&verb))
+    }
 
     /// As it stands in the chunk.
     ///

@@ -82,44 +82,9 @@ pub fn slides<E: From<SlideError>>(
     mut take: impl FnMut(usize, &Framebuffer) -> Result<(), E>,
 ) -> Result<(), E> {
     let layout = Layout::new(size);
-    let options = ViewerOptions {
-        window: layout.picture_size(),
-        ..ViewerOptions::default()
-    };
-    let mut viewer = Viewer::new(options).map_err(SlideError::from)?;
-    viewer.opening().lessons().begin(lesson.clone(), None);
-    for (number, step) in lesson.steps.iter().enumerate() {
-        if !numbers.contains(&(number + 1)) {
-            continue;
-        }
-        let _ = viewer.apply(Command::Lesson(LessonCommand::Step(number)));
-        viewer.finish();
-        if let Some(problem) = viewer.scene_list().current().and_then(|entry| entry.failure()) {
-            let problem = problem.to_owned();
-            let step = number + 1;
-            return Err(SlideError::Scene { step, problem }.into());
-        }
-        if let Some(pin) = step.pin.filter(|_| viewer.pixels().pinned().is_none()) {
-            let (step, DVec2 { x, y }) = (number + 1, pin);
-            return Err(SlideError::PinOutside { step, x, y }.into());
-        }
-        let mut slide = Framebuffer::new(size[0], size[1]);
-        slide.pixels_mut().fill(PAPER);
-        let mut picture = viewer.window().picture();
-        if let Some(line) = viewer.both().wipe_line() {
-            draw_line(line, &mut picture);
-        }
-        layout.paste(&picture, &mut slide);
-        if let Some([a, b]) = viewer.ab().sides(viewer.settings()) {
-            layout.caption(&mut slide, &format!("{a}  |  {b}"));
-        }
-        let of = format!("{}  {} / {}", lesson.title, number + 1, lesson.steps.len());
-        if !layout.write(&mut slide, step, &of) {
-            let [width, height] = size;
-            let step = number + 1;
-            return Err(SlideError::TextTooLong { step, width, height }.into());
-        }
-        take(number + 1, &slide)?;
+    for (number, step) in (1..).zip(&lesson.steps).filter(|(number, _)| numbers.contains(number)) {
+        let slide = layout.slide(lesson, number, step)?;
+        take(number, &slide)?;
     }
     Ok(())
 }
@@ -180,6 +145,43 @@ impl Layout {
             self.size[0].saturating_sub(self.picture + self.margin).max(1),
             self.size[1].saturating_sub(2 * self.margin).max(1),
         ]
+    }
+
+    /// Draws the step with this number, counted from 1. Its viewer is its own: where a step before left the magnifier, or what
+    /// else it changed, is nothing to this one.
+    fn slide(&self, lesson: &Lesson, number: usize, step: &LessonStep) -> Result<Framebuffer, SlideError> {
+        let options = ViewerOptions {
+            window: self.picture_size(),
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options)?;
+        viewer.opening().lessons().begin(lesson.clone(), None);
+        let _ = viewer.apply(Command::Lesson(LessonCommand::Step(number - 1)));
+        viewer.finish();
+        if let Some(problem) = viewer.scene_list().current().and_then(|entry| entry.failure()) {
+            let (step, problem) = (number, problem.to_owned());
+            return Err(SlideError::Scene { step, problem });
+        }
+        if let Some(pin) = step.pin.filter(|_| viewer.pixels().pinned().is_none()) {
+            let (step, DVec2 { x, y }) = (number, pin);
+            return Err(SlideError::PinOutside { step, x, y });
+        }
+        let mut slide = Framebuffer::new(self.size[0], self.size[1]);
+        slide.pixels_mut().fill(PAPER);
+        let mut picture = viewer.window().picture();
+        if let Some(line) = viewer.both().wipe_line() {
+            draw_line(line, &mut picture);
+        }
+        self.paste(&picture, &mut slide);
+        if let Some([a, b]) = viewer.ab().sides(viewer.settings()) {
+            self.caption(&mut slide, &format!("{a}  |  {b}"));
+        }
+        let of = format!("{}  {number} / {}", lesson.title, lesson.steps.len());
+        if !self.write(&mut slide, step, &of) {
+            let ([width, height], step) = (self.size, number);
+            return Err(SlideError::TextTooLong { step, width, height });
+        }
+        Ok(slide)
     }
 
     /// Puts the picture in its place.

@@ -260,6 +260,33 @@ fn lesson_slides_are_numbered_pictures() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
+/// The magnifier goes where the step alone puts it, wherever the step before had it.
+#[test]
+fn lesson_slides_do_not_depend_on_those_before() {
+    let folder = folder();
+    let step = |pin: &str| format!("[[step]]\nscene = \"b.svg\"\npin = \"{pin}\"\ntext = \"x\"\n");
+    let steps = ["95,5", "50,50", "5,95", "50,50"].map(step).concat();
+    let path = folder.path().join("pins.toml");
+    fs::write(&path, format!("title = \"T\"\n{steps}")).unwrap();
+    let (all, alone) = (folder.path().join("all"), folder.path().join("alone"));
+    let draw = |out: &Path, more: &[&str]| {
+        let slides = [
+            path.to_str().unwrap(),
+            "--slides",
+            out.to_str().unwrap(),
+            "--size=480x270",
+        ];
+        let run = lesson(&[&slides[..], more].concat());
+        assert_eq!(run.0, Some(0), "{}", run.1);
+    };
+    draw(&all, &[]);
+    for number in 1..=4 {
+        draw(&alone, &[&format!("--step={number}")]);
+        let [one, other] = [&all, &alone].map(|folder| rasterscope_frame(&folder.join(format!("{number:02}.png"))));
+        assert!(one == other, "slide {number}");
+    }
+}
+
 fn rasterscope_frame(path: &Path) -> Framebuffer {
     let image = image::open(path).unwrap().into_rgba8();
     let mut frame = Framebuffer::new(image.width(), image.height());

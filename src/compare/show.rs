@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::Pair;
 use crate::color::Colormap;
 use crate::raster::Framebuffer;
+use crate::render::{Legend, LegendKey};
 
 /// How the difference of a pixel is measured. A is the reference; channels run from 0 to 1. The pixel's number is that
 /// of the channel, red, green, blue or alpha, for which it is largest, so that no difference cancels another or hides.
@@ -66,12 +67,45 @@ impl Measure {
             Self::Absolute | Self::Relative | Self::Squared => Colormap::Sequential,
         }
     }
+
+    /// What the ends of its colours stand for where differences are multiplied with `gain`; of signed ones the middle, too.
+    pub fn marks(self, gain: f32) -> Vec<String> {
+        let end = 1.0 / f64::from(gain);
+        let levels = short(end * 255.0);
+        match self {
+            Self::Signed => vec![format!("−{levels} levels"), "0".to_owned(), format!("+{levels} levels")],
+            Self::Absolute => vec!["0".to_owned(), format!("{levels} levels and more")],
+            Self::Relative => vec!["0".to_owned(), format!("{} % of A and more", short(end * 100.0))],
+            Self::Squared => vec![
+                "0".to_owned(),
+                format!("{} levels² and more", short(end * 255.0 * 255.0)),
+            ],
+        }
+    }
+}
+
+/// A number with about three digits and no zeros behind the point.
+fn short(value: f64) -> String {
+    let decimals = match value {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 1.0 => 2,
+        _ => 4,
+    };
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// Pixels that one thread colours at a time.
 const CHUNK: usize = 16_384;
 /// Pixels that are compared at once before any of them is coloured.
 const BLOCK: usize = 64;
+/// Colours of a legend's scale.
+const LEGEND_COLORS: u16 = 256;
 /// Colours that relative differences are rounded to.
 const STEPS: u16 = 1023;
 
@@ -112,6 +146,24 @@ impl DifferencePaint {
     /// What is shown.
     pub fn measure(&self) -> Measure {
         self.measure
+    }
+
+    /// What its colours mean.
+    pub fn legend(&self) -> Legend {
+        let map = self.measure.colormap();
+        let last = f32::from(LEGEND_COLORS - 1);
+        let colors = (0..LEGEND_COLORS).map(|step| match (map, f32::from(step) / last) {
+            (Colormap::Diverging, part) => map.color(2.0 * part - 1.0),
+            (Colormap::Sequential, part) => map.color(part),
+        });
+        let marks = self.measure.marks(self.gain);
+        let last = marks.len().saturating_sub(1).max(1) as f32;
+        let ticks = (0_u16..).zip(marks).map(|(i, mark)| (f32::from(i) / last, mark));
+        Legend {
+            title: "difference of the channel where it is largest",
+            key: LegendKey::Scale(colors.collect(), ticks.collect()),
+            others: Vec::new(),
+        }
     }
 
     /// The colour of a pixel, `0xAARRGGBB` all three.
@@ -296,6 +348,37 @@ fn step(value: f32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (255.0, "255"),
+            (31.875, "31.9"),
+            (2.5, "2.5"),
+            (0.25, "0.25"),
+            (1000.0, "1000"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+
+    #[test]
+    fn legend_has_the_colours_of_the_differences() {
+        for measure in Measure::ALL {
+            let paint = DifferencePaint::new(measure, 4.0);
+            let LegendKey::Scale(colors, ticks) = paint.legend().key else {
+                panic!("{measure:?} has a scale");
+            };
+            let white = paint.pixel(0xff00_0000, 0xffff_ffff);
+            assert_eq!(colors.last(), Some(&white), "{measure:?}: the last colour");
+            let places: Vec<f32> = ticks.iter().map(|(place, _)| *place).collect();
+            let signed = measure == Measure::Signed;
+            assert_eq!(places, if signed { vec![0.0, 0.5, 1.0] } else { vec![0.0, 1.0] });
+            let zero = usize::from(signed);
+            assert_eq!(ticks[zero].1, "0", "{measure:?}");
+        }
+        assert_eq!(Measure::Absolute.marks(4.0)[1], "63.8 levels and more");
+    }
 
     const A: [u32; 4] = [0xFF64_6464, 0xFF64_6464, 0xFF64_6464, 0xFF00_0000];
     const B: [u32; 4] = [0xFF64_6464, 0xFF97_6464, 0xFF64_3F69, 0xFF00_0001];

@@ -26,7 +26,7 @@ const BORDER: u32 = 2;
 const BORDER_COLOR: u32 = 0xff20_2428;
 const MARGIN_COLOR: u32 = 0xfff4_f4f2;
 const GRID_COLOR: u32 = 0xff80_8488;
-const CENTER_COLOR: u32 = 0xffff_3b30;
+pub(super) const CENTER_COLOR: u32 = 0xffff_3b30;
 /// The two colours of the hatching outside the frame.
 const OUTSIDE_COLORS: [u32; 2] = [0xffb8_bcc0, 0xffd0_d4d8];
 

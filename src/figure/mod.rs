@@ -11,6 +11,7 @@ mod lines;
 mod magnify;
 mod output;
 mod paint;
+mod pin_ring;
 mod placement;
 #[cfg(feature = "cli")]
 mod plot;
@@ -36,6 +37,7 @@ pub use inset::Inset;
 pub use legend::{add_legends, draw_legend, place_legends};
 pub use magnify::magnified;
 pub use output::{Destination, Guard, Named, NewFile, TableOf, Unwritable, open_log, save_files, write_new, writing};
+pub use pin_ring::PinRing;
 pub use placement::{Corner, corners, place};
 #[cfg(feature = "cli")]
 pub use plot::{Plot, PlotSeries, draw_plot};

@@ -237,20 +237,7 @@ fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
         let piece = piece.intersect(rect);
         ui.painter().rect_filled(piece, 0.0, egui::Color32::from_rgb(r, g, b));
     }
-    let end = 1.0 / f64::from(gain);
-    let numbers = match measure {
-        Measure::Signed => vec![
-            format!("−{} levels", levels(end)),
-            "0".to_owned(),
-            format!("+{} levels", levels(end)),
-        ],
-        Measure::Absolute => vec!["0".to_owned(), format!("{} levels and more", levels(end))],
-        Measure::Relative => vec!["0".to_owned(), format!("{} % of A and more", short(end * 100.0))],
-        Measure::Squared => vec![
-            "0".to_owned(),
-            format!("{} levels² and more", short(end * 255.0 * 255.0)),
-        ],
-    };
+    let numbers = measure.marks(gain);
     let ink = ui.visuals().weak_text_color();
     let (row, _) = ui.allocate_exact_size(vec2(rect.width(), 14.0), Sense::hover());
     let last = numbers.len() - 1;
@@ -262,27 +249,6 @@ fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
         };
         let font = egui::FontId::proportional(11.0);
         ui.painter().text(pos2(x, row.center().y), align, text, font, ink);
-    }
-}
-
-/// A part of full scale as levels of 255.
-fn levels(part: f64) -> String {
-    short(part * 255.0)
-}
-
-/// A number with about three digits and no zeros behind the point.
-fn short(value: f64) -> String {
-    let decimals = match value {
-        v if v >= 100.0 => 0,
-        v if v >= 10.0 => 1,
-        v if v >= 1.0 => 2,
-        _ => 4,
-    };
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
     }
 }
 
@@ -340,22 +306,4 @@ fn guess(ui: &mut Ui, viewer: &Viewer) {
     let tip = "A was drawn under every known cause; these make it most like B.";
     let text = format!("explains {percent} % of the squared difference");
     ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in [
-            (255.0, "255"),
-            (31.875, "31.9"),
-            (2.5, "2.5"),
-            (0.25, "0.25"),
-            (1000.0, "1000"),
-        ] {
-            assert_eq!(short(value), text);
-        }
-    }
 }

@@ -4,6 +4,7 @@ use egui::{Rangef, Rect};
 
 use super::places::points;
 use super::{look, pin};
+use crate::figure::PinRing;
 use crate::viewer::{Arrangement, AskedAt, Viewer};
 
 /// Which side the panel takes in the room that other panels leave. It is chosen when the panel opens and when another
@@ -78,7 +79,7 @@ fn opens_left(viewer: &Viewer, room: Room, scale: f32) -> bool {
             } else {
                 Rangef::new(rest.left(), middle)
             };
-            (half.shrink(pin::RADIUS).contains(x), rest.x_range().contains(x))
+            (half.shrink(PinRing::RADIUS).contains(x), rest.x_range().contains(x))
         };
         return fitness(true) >= fitness(false);
     }

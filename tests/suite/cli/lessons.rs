@@ -287,6 +287,39 @@ fn lesson_slides_do_not_depend_on_those_before() {
     }
 }
 
+/// Where the pin is in the picture is marked as in the window.
+#[test]
+fn lesson_slides_mark_the_pin() {
+    let folder = folder();
+    let draw = |name: &str, pin: &str| {
+        let path = folder.path().join(format!("{name}.toml"));
+        let lesson_text = format!("title = \"T\"\n[[step]]\nscene = \"b.svg\"\n{pin}text = \"x\"\n");
+        fs::write(&path, lesson_text).unwrap();
+        let out = folder.path().join(name);
+        let run = lesson(&[
+            path.to_str().unwrap(),
+            "--slides",
+            out.to_str().unwrap(),
+            "--size=960x540",
+        ]);
+        assert_eq!(run.0, Some(0), "{}", run.1);
+        rasterscope_frame(&out.join("01.png"))
+    };
+    // The canvas has the middle of the picture; its upper left corner is far from the magnifier in any other.
+    let (plain, pinned) = (draw("plain", ""), draw("pinned", "pin = \"5,5\"\n"));
+    let red = 0xffff_3b30;
+    let count = |frame: &Framebuffer| frame.pixels().iter().filter(|pixel| **pixel == red).count();
+    assert_eq!(count(&plain), 0);
+    let columns = |from: usize, to: usize| {
+        let rows = pinned.pixels().chunks(960).take(100);
+        rows.flat_map(move |row| &row[from..to])
+            .filter(|pixel| **pixel == red)
+            .count()
+    };
+    // The canvas is about 490 pixels wide, in the middle of a picture that begins at column 326.
+    assert!(columns(380, 460) > 20, "a ring about the pin: {}", count(&pinned));
+}
+
 fn rasterscope_frame(path: &Path) -> Framebuffer {
     let image = image::open(path).unwrap().into_rgba8();
     let mut frame = Framebuffer::new(image.width(), image.height());

@@ -1,17 +1,9 @@
-//! The steps of a lesson as slides: the words on the left, on the right the picture that the window shows.
-
-use crate::viewer::LessonCommand;
-use std::io;
-use std::ops::RangeInclusive;
-
-use glam::DVec2;
+//! The page of a slide: where words and picture lie on it, and how the words are set.
 
 use crate::figure::{Anchor, TextBlock, TextStyle, Typeface};
 use crate::raster::Framebuffer;
-use crate::viewer::command::Command;
 use crate::viewer::lesson::markdown::{Block, Look, Span};
-use crate::viewer::lesson::model::{Lesson, LessonStep};
-use crate::viewer::state::{Viewer, ViewerOptions};
+use crate::viewer::lesson::model::LessonStep;
 
 /// The part of a slide's width that the words have.
 const WORDS: f64 = 0.34;
@@ -35,63 +27,9 @@ const QUIET: u32 = 0xff5c_6670;
 
 const CODE: u32 = 0xff1b_4f8a;
 
-/// Why there are no slides.
-#[derive(Debug, thiserror::Error)]
-pub enum SlideError {
-    /// The system gives no threads.
-    #[error("cannot draw slides: {0}")]
-    Threads(#[from] io::Error),
-    /// A text is too long.
-    #[error("step {step}: its text does not fit on a slide of {width} x {height} pixels; shorten it or split the step")]
-    TextTooLong {
-        /// Number of the step, from 1.
-        step: usize,
-        /// Size of the slide.
-        width: u32,
-        /// See `width`.
-        height: u32,
-    },
-    /// A pin lies outside.
-    #[error("step {step}: its pin {x},{y} is not in the picture; move the pin, or the view so that it shows it")]
-    PinOutside {
-        /// Number of the step, from 1.
-        step: usize,
-        /// The pin, in user units.
-        x: f64,
-        /// See `x`.
-        y: f64,
-    },
-    /// A scene cannot be drawn.
-    #[error("step {step}: {problem}")]
-    Scene {
-        /// Number of the step, from 1.
-        step: usize,
-        /// One line: file, place, cause, cure.
-        problem: String,
-    },
-}
-
-/// Draws the steps with these `numbers`, counted from 1, as slides of `size` pixels and hands each to `take` with its number.
-///
-/// # Errors
-/// When a step cannot be drawn, or when `take` says so.
-pub fn slides<E: From<SlideError>>(
-    lesson: &Lesson,
-    size: [u32; 2],
-    numbers: RangeInclusive<usize>,
-    mut take: impl FnMut(usize, &Framebuffer) -> Result<(), E>,
-) -> Result<(), E> {
-    let layout = Layout::new(size);
-    for (number, step) in (1..).zip(&lesson.steps).filter(|(number, _)| numbers.contains(number)) {
-        let slide = layout.slide(lesson, number, step)?;
-        take(number, &slide)?;
-    }
-    Ok(())
-}
-
 /// Where things lie on a slide.
-struct Layout {
-    size: [u32; 2],
+pub(super) struct Page {
+    pub(super) size: [u32; 2],
     margin: u32,
     /// Where the words end, and where the picture begins.
     words_end: u32,
@@ -123,13 +61,13 @@ struct Pen {
     blank: bool,
 }
 
-impl Layout {
+impl Page {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "parts of a picture's size"
     )]
-    fn new(size: [u32; 2]) -> Self {
+    pub(super) fn new(size: [u32; 2]) -> Self {
         let margin = (f64::from(size[1]) * MARGIN).round() as u32;
         let picture = (f64::from(size[0]) * WORDS).round() as u32;
         Self {
@@ -140,52 +78,22 @@ impl Layout {
         }
     }
 
-    fn picture_size(&self) -> [u32; 2] {
+    pub(super) fn picture_size(&self) -> [u32; 2] {
         [
             self.size[0].saturating_sub(self.picture + self.margin).max(1),
             self.size[1].saturating_sub(2 * self.margin).max(1),
         ]
     }
 
-    /// Draws the step with this number, counted from 1. Its viewer is its own: where a step before left the magnifier, or what
-    /// else it changed, is nothing to this one.
-    fn slide(&self, lesson: &Lesson, number: usize, step: &LessonStep) -> Result<Framebuffer, SlideError> {
-        let options = ViewerOptions {
-            window: self.picture_size(),
-            ..ViewerOptions::default()
-        };
-        let mut viewer = Viewer::new(options)?;
-        viewer.opening().lessons().begin(lesson.clone(), None);
-        let _ = viewer.apply(Command::Lesson(LessonCommand::Step(number - 1)));
-        viewer.finish();
-        if let Some(problem) = viewer.scene_list().current().and_then(|entry| entry.failure()) {
-            let (step, problem) = (number, problem.to_owned());
-            return Err(SlideError::Scene { step, problem });
-        }
-        if let Some(pin) = step.pin.filter(|_| viewer.pixels().pinned().is_none()) {
-            let (step, DVec2 { x, y }) = (number, pin);
-            return Err(SlideError::PinOutside { step, x, y });
-        }
+    /// The page with nothing on it.
+    pub(super) fn blank(&self) -> Framebuffer {
         let mut slide = Framebuffer::new(self.size[0], self.size[1]);
         slide.pixels_mut().fill(PAPER);
-        let mut picture = viewer.window().picture();
-        if let Some(line) = viewer.both().wipe_line() {
-            draw_line(line, &mut picture);
-        }
-        self.paste(&picture, &mut slide);
-        if let Some([a, b]) = viewer.ab().sides(viewer.settings()) {
-            self.caption(&mut slide, &format!("{a}  |  {b}"));
-        }
-        let of = format!("{}  {number} / {}", lesson.title, lesson.steps.len());
-        if !self.write(&mut slide, step, &of) {
-            let ([width, height], step) = (self.size, number);
-            return Err(SlideError::TextTooLong { step, width, height });
-        }
-        Ok(slide)
+        slide
     }
 
     /// Puts the picture in its place.
-    fn paste(&self, picture: &Framebuffer, slide: &mut Framebuffer) {
+    pub(super) fn paste(&self, picture: &Framebuffer, slide: &mut Framebuffer) {
         let (from, to) = (picture.width() as usize, self.size[0] as usize);
         if from == 0 || to == 0 {
             return;
@@ -200,7 +108,7 @@ impl Layout {
     }
 
     /// Writes a line below the picture.
-    fn caption(&self, slide: &mut Framebuffer, text: &str) {
+    pub(super) fn caption(&self, slide: &mut Framebuffer, text: &str) {
         let style = TextStyle::new(self.margin as f32 * 0.4, QUIET);
         let block = TextBlock::new(text, style, None);
         let top = i64::from(self.size[1].saturating_sub(self.margin)) + i64::from(self.margin / 6);
@@ -208,7 +116,7 @@ impl Layout {
     }
 
     /// Writes what a step says; false where it does not fit. Nothing of it is written then.
-    fn write(&self, slide: &mut Framebuffer, step: &LessonStep, of: &str) -> bool {
+    pub(super) fn write(&self, slide: &mut Framebuffer, step: &LessonStep, of: &str) -> bool {
         let fits = SIZES.into_iter().find(|size| self.words(step, of, *size, None));
         fits.is_some_and(|size| self.words(step, of, size, Some(slide)))
     }
@@ -293,24 +201,6 @@ impl Layout {
             pen.at[0] += width;
         }
         pen.at[1] + i64::from(style.line_height())
-    }
-}
-
-/// The line of a wipe, at `x` pixels from the left.
-fn draw_line(x: f64, picture: &mut Framebuffer) {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "`as` saturates; the line lies in the picture"
-    )]
-    let at = x.round() as usize;
-    let width = (picture.width() as usize).max(1);
-    for row in picture.pixels_mut().chunks_exact_mut(width) {
-        for (column, color) in [(at.saturating_sub(1), INK), (at, PAPER), (at + 1, INK)] {
-            if let Some(pixel) = row.get_mut(column) {
-                *pixel = color;
-            }
-        }
     }
 }
 

@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::options::lesson::LessonOptions;
 use super::options::view::ViewerOptions;
+use super::picture::set_threads;
 use super::{memory, progress, render, view};
-use crate::figure::{Destination, Guard, Named, Record, save_picture};
+use crate::figure::{Destination, Ground, Guard, Named, Record, save_picture};
+use crate::geometry::View;
 use crate::raster::Framebuffer;
 use crate::scene::DialectChoice;
 use crate::viewer::{
-    Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, as_path, input_file, plain_record, slides,
+    Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, Theme, as_path, input_file, plain_record, slides,
 };
 
 /// The size of slides where none is asked for.
@@ -25,6 +27,7 @@ struct Slides<'a> {
     source: LessonSource,
     lesson: Lesson,
     size: [u32; 2],
+    ground: Ground,
     /// Of the steps, from 1.
     numbers: RangeInclusive<usize>,
     folder: &'a Path,
@@ -33,6 +36,10 @@ struct Slides<'a> {
 /// Opens the lesson, or writes its slides.
 pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     if let Some(folder) = &options.slides {
+        refuse_for_slides(&options.view)?;
+        if options.view.framing.threads.is_some() {
+            set_threads(options.view.framing.threads)?;
+        }
         let slides = Slides::new(options)?;
         let guard = slides.guard(options.view.force)?;
         return slides.draw(|slide, number| {
@@ -52,6 +59,40 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
         ..options.view.clone()
     };
     view::run(&view, None)
+}
+
+/// Refuses options that no slide takes: each step says what it shows, and there is no window.
+fn refuse_for_slides(options: &ViewerOptions) -> Result<(), Failure> {
+    let refused = |option: &str, why: &str| Err(Failure::input(format!("{option}: {why}")));
+    let of_steps = [
+        (options.framing.view != View::Default, "view"),
+        (options.against.is_some(), "against"),
+    ];
+    let of_steps = of_steps.into_iter().filter_map(|(given, name)| given.then_some(name));
+    if let Some(name) = options.sampling.given().iter().copied().chain(of_steps).next() {
+        return refused(
+            &format!("--{name}"),
+            "slides show what the steps of the lesson say; leave it out, or write it into its steps",
+        );
+    }
+    if let Some(path) = options.paths.first() {
+        return refused(&path.display().to_string(), "slides are of one lesson; leave it out");
+    }
+    let of_window = [
+        (options.scale.is_some(), "--scale"),
+        (options.script.is_some(), "--script"),
+        (options.commands.is_some(), "--do"),
+        (options.screenshot_dir.is_some(), "--screenshot-dir"),
+        (options.screenshot_name.is_some(), "--screenshot-name"),
+        (options.frame_log.is_some(), "--frame-log"),
+    ];
+    match of_window.into_iter().find(|(given, _)| *given) {
+        Some((_, option)) => refused(
+            option,
+            "slides are drawn without a window; leave it out, or leave out --slides",
+        ),
+        None => Ok(()),
+    }
 }
 
 /// The one slide that the options ask for, and its record for the file `output`.
@@ -111,6 +152,10 @@ impl<'a> Slides<'a> {
             source,
             lesson,
             size,
+            ground: match options.view.theme {
+                Some(Theme::Dark) => Ground::Dark,
+                Some(Theme::Light) | None => Ground::Light,
+            },
             numbers,
             folder: options.slides.as_deref().unwrap_or(Path::new("")),
         })
@@ -126,9 +171,12 @@ impl<'a> Slides<'a> {
     fn draw(&self, mut take: impl FnMut(&Framebuffer, usize) -> Result<(), Failure>) -> Result<(), Failure> {
         progress::count(self.numbers.clone().count());
         memory::ask_for(memory::pixels(self.size).saturating_mul(3))?;
-        slides(&self.lesson, self.size, self.numbers.clone(), |number, slide| {
-            take(slide, number).map_err(SlideFailure::Taken)
-        })
+        slides(
+            &self.lesson,
+            (self.size, self.ground),
+            self.numbers.clone(),
+            |number, slide| take(slide, number).map_err(SlideFailure::Taken),
+        )
         .map_err(|failure| self.failure(failure))
     }
 
@@ -136,7 +184,7 @@ impl<'a> Slides<'a> {
     /// it.
     fn record(&self, number: usize, output: &Path) -> Record {
         let [width, height] = self.size;
-        let words = [
+        let mut words = vec![
             "lesson".to_owned(),
             as_path(&self.source.address()),
             "--slides".to_owned(),
@@ -145,6 +193,9 @@ impl<'a> Slides<'a> {
             format!("{width}x{height}"),
             format!("--step={number}"),
         ];
+        if self.ground != Ground::default() {
+            words.push(format!("--theme={}", self.ground.name()));
+        }
         let step = number.checked_sub(1).and_then(|index| self.lesson.steps.get(index));
         // Lessons of the program and scenes of the gallery are no files.
         let inputs = match (&self.source, step.map(|step| &step.scene)) {
@@ -154,7 +205,7 @@ impl<'a> Slides<'a> {
         };
         Record {
             inputs: inputs.into_iter().map(|path| input_file(path, output)).collect(),
-            ..plain_record(words.to_vec(), self.size)
+            ..plain_record(words, self.size)
         }
     }
 

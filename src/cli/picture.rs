@@ -179,8 +179,15 @@ pub(super) fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T
     Ok(pool.install(work))
 }
 
+/// As many threads as the option says, or one per core, for all that a viewer draws. Nothing may have used the pool before, so that
+/// it fails only where the system gives no threads.
+pub(super) fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from));
+    pool.build_global().map_err(|error| no_threads(threads, &error))
+}
+
 /// The system gives no threads; none `wanted` means as many as it has cores.
-pub(super) fn no_threads(wanted: Option<u16>, error: &rayon::ThreadPoolBuildError) -> Failure {
+fn no_threads(wanted: Option<u16>, error: &rayon::ThreadPoolBuildError) -> Failure {
     let wanted = wanted.map_or("a thread for every core".to_owned(), |count| match count {
         1 => "a thread".to_owned(),
         _ => format!("{count} threads"),

@@ -7,7 +7,7 @@ use crate::viewer::Restored;
 /// Opens the window, or plays a session without one.
 #[cfg(feature = "window")]
 pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
-    use super::picture::no_threads;
+    use super::picture::set_threads;
     use super::{interrupt, memory};
     use crate::app::{self, AppError, ScriptSource, ViewOptions};
     use crate::viewer::{Against, LessonSource, patterns, picture};
@@ -40,11 +40,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         return Err(Failure::Input(format!("--against: {problem}")));
     }
     let threads = options.framing.threads;
-    // Nothing has used the pool before this line, so that it fails only where the system gives no threads.
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.map_or(0, usize::from))
-        .build_global()
-        .map_err(|error| no_threads(threads, &error))?;
+    set_threads(threads)?;
     if options.headless {
         let pixels = options.size.map_or(0, |size| memory::pixels(size.0));
         // A window holds its frame three times over: as it is, as it was, and below the panels.

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use self::marks::draw_marks;
 use self::page::Page;
+use crate::figure::Ground;
 use crate::raster::Framebuffer;
 use crate::viewer::LessonCommand;
 use crate::viewer::ab::other::Arrangement;
@@ -53,17 +54,18 @@ pub enum SlideError {
     },
 }
 
-/// Draws the steps with these `numbers`, counted from 1, as slides of `size` pixels and hands each to `take` with its number.
+/// Draws the steps with these `numbers`, counted from 1, as slides of `size` pixels on this `ground` and hands each to `take` with
+/// its number.
 ///
 /// # Errors
 /// When a step cannot be drawn, or when `take` says so.
 pub fn slides<E: From<SlideError>>(
     lesson: &Lesson,
-    size: [u32; 2],
+    (size, ground): ([u32; 2], Ground),
     numbers: RangeInclusive<usize>,
     mut take: impl FnMut(usize, &Framebuffer) -> Result<(), E>,
 ) -> Result<(), E> {
-    let (page, lesson) = (Page::new(size), &as_stills(lesson));
+    let (page, lesson) = (Page::new(size, ground), &as_stills(lesson));
     for (number, step) in (1..).zip(&lesson.steps).filter(|(number, _)| numbers.contains(number)) {
         let slide = slide(&page, lesson, number, step)?;
         take(number, &slide)?;

@@ -1,6 +1,6 @@
 //! The page of a slide: where words and picture lie on it, and how the words are set.
 
-use crate::figure::{Anchor, TextBlock, TextStyle, Typeface};
+use crate::figure::{Anchor, Ground, TextBlock, TextStyle, Typeface};
 use crate::raster::Framebuffer;
 use crate::viewer::lesson::markdown::{Block, Look, Span};
 use crate::viewer::lesson::model::LessonStep;
@@ -17,15 +17,30 @@ const SIZES: [f64; 5] = [0.032, 0.029, 0.026, 0.023, 0.02];
 /// What a heading's letters are larger by.
 const HEADING: f64 = 1.35;
 
-const PAPER: u32 = 0xffff_ffff;
+/// The colours of a page.
+struct Colors {
+    paper: u32,
+    ink: u32,
+    strong: u32,
+    quiet: u32,
+    code: u32,
+}
 
-const INK: u32 = 0xff20_2428;
+const LIGHT: Colors = Colors {
+    paper: Ground::Light.color(),
+    ink: 0xff20_2428,
+    strong: 0xff00_0000,
+    quiet: 0xff5c_6670,
+    code: 0xff1b_4f8a,
+};
 
-const STRONG: u32 = 0xff00_0000;
-
-const QUIET: u32 = 0xff5c_6670;
-
-const CODE: u32 = 0xff1b_4f8a;
+const DARK: Colors = Colors {
+    paper: Ground::Dark.color(),
+    ink: 0xffd8_dade,
+    strong: 0xffff_ffff,
+    quiet: 0xff9c_a2aa,
+    code: 0xff8a_c2ff,
+};
 
 /// Where things lie on a slide.
 pub(super) struct Page {
@@ -34,6 +49,7 @@ pub(super) struct Page {
     /// Where the words end, and where the picture begins.
     words_end: u32,
     picture: u32,
+    colors: &'static Colors,
 }
 
 /// A word with its look, ready to be placed.
@@ -67,7 +83,7 @@ impl Page {
         clippy::cast_sign_loss,
         reason = "parts of a picture's size"
     )]
-    pub(super) fn new(size: [u32; 2]) -> Self {
+    pub(super) fn new(size: [u32; 2], ground: Ground) -> Self {
         let margin = (f64::from(size[1]) * MARGIN).round() as u32;
         let picture = (f64::from(size[0]) * WORDS).round() as u32;
         Self {
@@ -75,6 +91,10 @@ impl Page {
             margin,
             words_end: picture.saturating_sub(margin),
             picture,
+            colors: match ground {
+                Ground::Light => &LIGHT,
+                Ground::Dark => &DARK,
+            },
         }
     }
 
@@ -88,7 +108,7 @@ impl Page {
     /// The page with nothing on it.
     pub(super) fn blank(&self) -> Framebuffer {
         let mut slide = Framebuffer::new(self.size[0], self.size[1]);
-        slide.pixels_mut().fill(PAPER);
+        slide.pixels_mut().fill(self.colors.paper);
         slide
     }
 
@@ -109,7 +129,7 @@ impl Page {
 
     /// Writes a line below the picture.
     pub(super) fn caption(&self, slide: &mut Framebuffer, text: &str) {
-        let style = TextStyle::new(self.margin as f32 * 0.4, QUIET);
+        let style = TextStyle::new(self.margin as f32 * 0.4, self.colors.quiet);
         let block = TextBlock::new(text, style, None);
         let top = i64::from(self.size[1].saturating_sub(self.margin)) + i64::from(self.margin / 6);
         block.draw(slide, [i64::from(self.picture), top], Anchor::Left);
@@ -125,11 +145,11 @@ impl Page {
     fn words(&self, step: &LessonStep, of: &str, size: f64, mut slide: Option<&mut Framebuffer>) -> bool {
         #[expect(clippy::cast_possible_truncation, reason = "a size of letters")]
         let size = (size * f64::from(self.size[1])) as f32;
-        let body = TextStyle::new(size, INK);
+        let body = TextStyle::new(size, self.colors.ink);
         let gap = i64::from(body.line_height()) / 2;
         let margin = i64::from(self.margin);
         let mut top = margin;
-        let small = TextStyle::new(size * 0.75, QUIET);
+        let small = TextStyle::new(size * 0.75, self.colors.quiet);
         let head = TextBlock::new(of, small, Some(self.words_end.saturating_sub(self.margin)));
         if let Some(slide) = slide.as_deref_mut() {
             head.draw(slide, [margin, top], Anchor::Left);
@@ -156,7 +176,7 @@ impl Page {
                     self.spans(words, body, [words_left, top], slide.as_deref_mut()) - gap / 2
                 }
                 Block::Code(code) => {
-                    let style = code_style(body);
+                    let style = code_style(body, self.colors);
                     let block = TextBlock::new(code, style, Some(self.words_end.saturating_sub(self.margin)));
                     if let Some(slide) = slide.as_deref_mut() {
                         block.draw(slide, [margin, top], Anchor::Left);
@@ -177,7 +197,7 @@ impl Page {
         };
         let blank = i64::from(TextBlock::new("n n", style, None).size()[0])
             - i64::from(TextBlock::new("nn", style, None).size()[0]);
-        for word in spans.iter().flat_map(|span| words_of(span, style)) {
+        for word in spans.iter().flat_map(|span| words_of(span, style, self.colors)) {
             pen.blank |= word.after == After::Blank;
             if word.text.is_empty() && word.after != After::LineBreak {
                 continue;
@@ -210,20 +230,26 @@ fn heading(style: TextStyle) -> TextStyle {
     TextStyle { size, ..style }
 }
 
-fn code_style(style: TextStyle) -> TextStyle {
+fn code_style(style: TextStyle, colors: &Colors) -> TextStyle {
     TextStyle {
         typeface: Typeface::Code,
         size: style.size * 0.9,
-        color: CODE,
+        color: colors.code,
     }
 }
 
 /// The words of a span. Between two spans without a blank no line may break.
-fn words_of(span: &Span, style: TextStyle) -> impl Iterator<Item = Word<'_>> {
+fn words_of<'a>(span: &'a Span, style: TextStyle, colors: &Colors) -> impl Iterator<Item = Word<'a>> + use<'a> {
     let style = match span.look {
-        Look::Code => code_style(style),
-        Look::Bold => TextStyle { color: STRONG, ..style },
-        Look::Italic => TextStyle { color: QUIET, ..style },
+        Look::Code => code_style(style, colors),
+        Look::Bold => TextStyle {
+            color: colors.strong,
+            ..style
+        },
+        Look::Italic => TextStyle {
+            color: colors.quiet,
+            ..style
+        },
         Look::Plain => style,
     };
     span.text.split('\n').enumerate().flat_map(move |(line, text)| {

@@ -287,6 +287,59 @@ fn lesson_slides_do_not_depend_on_those_before() {
     }
 }
 
+#[test]
+fn lesson_slides_are_light_or_dark() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let slides = [
+        "six-tasks",
+        "--slides",
+        out.to_str().unwrap(),
+        "--size=480x270",
+        "--step=1",
+    ];
+    for (theme, paper) in [("light", 0xffff_ffff), ("dark", 0xff14_1619)] {
+        let run = lesson(&[&slides[..], &["--theme", theme, "--threads=1"]].concat());
+        assert_eq!(run.0, Some(0), "{}", run.1);
+        let slide = out.join("01.png");
+        assert_eq!(rasterscope_frame(&slide).pixels()[0], paper, "{theme}");
+        let again = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .args(["rerun", slide.to_str().unwrap(), "--check"])
+            .output()
+            .unwrap();
+        assert!(again.status.success(), "{theme}: {again:?}");
+    }
+}
+
+#[test]
+fn lesson_slides_refuse_what_they_do_not_take() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    for option in [
+        "--sample-rate=64",
+        "--dialect=svg",
+        "--view=1,2,3",
+        "--against=truth",
+        "--scale=2",
+        "--do=wait",
+        "--script=nowhere.txt",
+        "--screenshot-dir=.",
+        "--screenshot-name=a",
+        "--frame-log=a.csv",
+        "a.svg",
+    ] {
+        let (status, message) = lesson(&["six-tasks", "--slides", out.to_str().unwrap(), option]);
+        let name = option.split('=').next().unwrap();
+        assert_eq!(status, Some(2), "{option}: {message}");
+        assert!(
+            message.contains(&format!("{name}: slides are")) || message.contains(&format!("{name}: slides show")),
+            "{message}"
+        );
+        assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+        assert!(!out.exists(), "{option}: nothing is written");
+    }
+}
+
 /// Where the pin is in the picture is marked as in the window.
 #[test]
 fn lesson_slides_mark_the_pin() {

@@ -1,7 +1,10 @@
 //! How the panels look: sizes, type and colours of both themes, with and without the presenter look, set once per change.
 
 use egui::style::{ScrollFadeStyle, ScrollStyle};
-use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2, vec2};
+use egui::{
+    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2,
+    vec2,
+};
 
 use crate::viewer::Theme;
 
@@ -98,6 +101,7 @@ const LIGHT: Palette = Palette {
 /// Sets sizes and type, and what holds for both themes. `animated` is false where pictures must not depend on time.
 pub(super) fn install(ctx: &Context, animated: bool) {
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    ctx.set_fonts(fonts());
     for theme in [egui::Theme::Dark, egui::Theme::Light] {
         ctx.style_mut_of(theme, |style| {
             let font = |size| FontId::new(size, FontFamily::Proportional);
@@ -125,6 +129,14 @@ pub(super) fn install(ctx: &Context, animated: bool) {
             }
         });
     }
+}
+
+/// egui's typefaces. What Ubuntu Light lacks, such as arrows and `≈`, comes from Hack in words, too, as it does in pictures.
+fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::default();
+    let words = fonts.families.entry(FontFamily::Proportional).or_default();
+    words.push("Hack".to_owned());
+    fonts
 }
 
 /// Free space inside a panel that scrolls: the bar's room is a part of that on the right.
@@ -231,4 +243,25 @@ pub(super) const CONTROL: Vec2 = vec2(28.0, 22.0);
 /// A straight colour without its alpha: swatches are opaque.
 pub(super) fn opaque([r, g, b, _]: [u8; 4]) -> Color32 {
     Color32::from_rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_have_the_signs_that_lessons_use() {
+        let ctx = Context::default();
+        install(&ctx, false);
+        let _ = ctx.run_ui(egui::RawInput::default(), |_| {});
+        for sign in "→←↑↓≈≤≥×–…−·²√".chars() {
+            for family in [FontFamily::Proportional, FontFamily::Monospace] {
+                let font = FontId::new(13.0, family);
+                assert!(
+                    ctx.fonts_mut(|fonts| fonts.has_glyph(&font, sign)),
+                    "{sign} in {font:?}"
+                );
+            }
+        }
+    }
 }

@@ -125,7 +125,8 @@ const WRITEUP_FILES: &str = "The folder OUT gets a PNG for each figure, named by
                              and may be edited; and the scenes that were made for it.";
 
 const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is the same; 1 pixels differ; 2 the picture \
-                            carries no record, or a file or an argument is at fault.";
+                            carries no record or one that cannot be compared so, as of a board or a window, or a file or \
+                            an argument is at fault.";
 
 const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
                            argument is at fault.";

@@ -14,7 +14,8 @@ use crate::geometry::View;
 use crate::raster::Framebuffer;
 use crate::scene::DialectChoice;
 use crate::viewer::{
-    Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, Theme, as_path, input_file, plain_record, slides,
+    Against, BUILT_IN, Lesson, LessonSource, SceneSource, Slide, SlideError, Theme, as_path, input_file, plain_record,
+    slides, texture_files,
 };
 
 /// The size of slides where none is asked for.
@@ -46,8 +47,8 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
             let path = slides.path(number);
             // Only now, so that a lesson that is refused leaves no empty folder.
             std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
-            let record = slides.record(number, &path);
-            let saved = save_picture(slide, Some(&record), Destination::by_program(&path), &guard);
+            let record = slides.record(slide, number, &path);
+            let saved = save_picture(&slide.picture, Some(&record), Destination::by_program(&path), &guard);
             progress::done();
             saved.map_err(|error| render::unwritable_by("--slides", &path, &error))
         });
@@ -100,7 +101,7 @@ pub(super) fn picture(options: &LessonOptions, output: &Path) -> Result<(Framebu
     let mut only = None;
     let slides = Slides::new(options)?;
     slides.draw(|slide, number| {
-        only = Some((slide.clone(), slides.record(number, output)));
+        only = Some((slide.picture.clone(), slides.record(slide, number, output)));
         Ok(())
     })?;
     only.ok_or_else(|| Failure::other("a lesson without steps"))
@@ -168,7 +169,7 @@ impl<'a> Slides<'a> {
     }
 
     /// Draws the slides and hands each over, with its number.
-    fn draw(&self, mut take: impl FnMut(&Framebuffer, usize) -> Result<(), Failure>) -> Result<(), Failure> {
+    fn draw(&self, mut take: impl FnMut(&Slide, usize) -> Result<(), Failure>) -> Result<(), Failure> {
         progress::count(self.numbers.clone().count());
         memory::ask_for(memory::pixels(self.size).saturating_mul(3))?;
         slides(
@@ -182,7 +183,7 @@ impl<'a> Slides<'a> {
 
     /// The record of the slide with this number, for the file `output`: words and picture, so that no scene comes back from
     /// it.
-    fn record(&self, number: usize, output: &Path) -> Record {
+    fn record(&self, slide: &Slide, number: usize, output: &Path) -> Record {
         let [width, height] = self.size;
         let mut words = vec![
             "lesson".to_owned(),
@@ -205,6 +206,7 @@ impl<'a> Slides<'a> {
         };
         Record {
             inputs: inputs.into_iter().map(|path| input_file(path, output)).collect(),
+            textures: slide.scene.as_deref().map_or_else(Vec::new, texture_files),
             ..plain_record(words, self.size)
         }
     }

@@ -94,11 +94,9 @@ impl PictureSpec {
 
     /// The record of the picture that was drawn of `scene`, for a file `output`.
     pub fn record(&self, scene: &Scene, output: &Path) -> Record {
-        let textures = scene.files.textures.iter();
-        let textures = textures.map(|(address, digest)| texture_file(address, digest));
         Record {
             scene: Some(scene_file(&self.scene, scene, output)),
-            textures: textures.collect(),
+            textures: texture_files(scene),
             view: self.view_text(),
             settings: self
                 .settings()
@@ -183,12 +181,15 @@ pub fn input_file(path: &Path, output: &Path) -> RecordedFile {
     }
 }
 
-fn texture_file(address: &str, digest: &FileDigest) -> RecordedFile {
-    RecordedFile {
-        address: address.to_owned(),
+/// The textures of a scene as records name them.
+pub fn texture_files(scene: &Scene) -> Vec<RecordedFile> {
+    let textures = scene.files.textures.iter();
+    let textures = textures.map(|(address, digest)| RecordedFile {
+        address: address.clone(),
         beside: None,
         sha256: digest.to_string(),
-    }
+    });
+    textures.collect()
 }
 
 /// The way from a folder to a file; `None` where there is none, or one of them does not exist.

@@ -5,6 +5,7 @@ mod page;
 
 use std::io;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -12,10 +13,12 @@ use self::marks::draw_marks;
 use self::page::Page;
 use crate::figure::Ground;
 use crate::raster::Framebuffer;
+use crate::scene::Scene;
 use crate::viewer::LessonCommand;
 use crate::viewer::ab::other::Arrangement;
 use crate::viewer::command::Command;
 use crate::viewer::lesson::model::{Lesson, LessonStep};
+use crate::viewer::library::SceneEntry;
 use crate::viewer::state::{Viewer, ViewerOptions};
 
 /// Why there are no slides.
@@ -54,6 +57,15 @@ pub enum SlideError {
     },
 }
 
+/// A step as a picture.
+#[derive(Clone, Debug)]
+pub struct Slide {
+    /// Words and picture.
+    pub picture: Framebuffer,
+    /// The scene in it.
+    pub scene: Option<Arc<Scene>>,
+}
+
 /// Draws the steps with these `numbers`, counted from 1, as slides of `size` pixels on this `ground` and hands each to `take` with
 /// its number.
 ///
@@ -63,7 +75,7 @@ pub fn slides<E: From<SlideError>>(
     lesson: &Lesson,
     (size, ground): ([u32; 2], Ground),
     numbers: RangeInclusive<usize>,
-    mut take: impl FnMut(usize, &Framebuffer) -> Result<(), E>,
+    mut take: impl FnMut(usize, &Slide) -> Result<(), E>,
 ) -> Result<(), E> {
     let (page, lesson) = (Page::new(size, ground), &as_stills(lesson));
     for (number, step) in (1..).zip(&lesson.steps).filter(|(number, _)| numbers.contains(number)) {
@@ -75,7 +87,7 @@ pub fn slides<E: From<SlideError>>(
 
 /// Draws the step with this number, counted from 1. Its viewer is its own: where a step before left the magnifier, or what
 /// else it changed, is nothing to this one.
-fn slide(page: &Page, lesson: &Lesson, number: usize, step: &LessonStep) -> Result<Framebuffer, SlideError> {
+fn slide(page: &Page, lesson: &Lesson, number: usize, step: &LessonStep) -> Result<Slide, SlideError> {
     let options = ViewerOptions {
         window: page.picture_size(),
         ..ViewerOptions::default()
@@ -104,7 +116,8 @@ fn slide(page: &Page, lesson: &Lesson, number: usize, step: &LessonStep) -> Resu
         let ([width, height], step) = (page.size, number);
         return Err(SlideError::TextTooLong { step, width, height });
     }
-    Ok(slide)
+    let scene = viewer.scene_list().current().and_then(SceneEntry::scene).cloned();
+    Ok(Slide { picture: slide, scene })
 }
 
 /// The lesson as pictures show it that do not move: what flips in the window stands side by side.

@@ -292,10 +292,10 @@ fn lesson_slides_are_light_or_dark() {
     let folder = folder();
     let out = folder.path().join("out");
     let slides = [
-        "six-tasks",
+        "anisotropy",
         "--slides",
         out.to_str().unwrap(),
-        "--size=480x270",
+        "--size=480x300",
         "--step=1",
     ];
     for (theme, paper) in [("light", 0xffff_ffff), ("dark", 0xff14_1619)] {

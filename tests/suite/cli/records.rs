@@ -343,6 +343,56 @@ fn rerun_finds_what_differences_and_slides_are_made_from() {
 }
 
 #[test]
+fn rerun_says_that_a_texture_of_a_slide_changed() {
+    let work = workplace();
+    let lesson = "title = \"T\"\n[[step]]\nscene = \"a.svg\"\ntext = \"See.\"\n";
+    fs::write(work.path().join("l.toml"), lesson).unwrap();
+    done(work.path(), &["lesson", "l.toml", "--slides", "s", "--size", "480x300"]);
+    let textures = record(&work.path().join("s/01.png")).textures;
+    assert_eq!(textures.len(), 1, "{textures:?}");
+    let check = || String::from_utf8(run(work.path(), &["rerun", "s/01.png", "--check"]).stdout).unwrap();
+    assert!(check().contains("the same, all "), "{}", check());
+    fs::write(work.path().join("t.png"), texture(0xff00_80ff)).unwrap();
+    let said = check();
+    assert!(
+        said.contains("differs in ") && said.contains("; the texture t.png changed since"),
+        "{said}"
+    );
+}
+
+/// What `help records` tells of pictures that are not compared.
+#[test]
+fn rerun_of_what_cannot_be_compared_is_status_2() {
+    let work = workplace();
+    done(
+        work.path(),
+        &[
+            "board",
+            "a.svg",
+            "--size=64x64",
+            "--frames=1",
+            "--vary=sample-rate",
+            "-o",
+            "b.png",
+        ],
+    );
+    let sweep = [
+        "sweep",
+        "a.svg",
+        "--size=32x32",
+        "--sample-rate=1,4",
+        "--frames=1",
+        "--csv=c.csv",
+    ];
+    done(work.path(), &sweep);
+    for (name, again) in [("b.png", Some(0)), ("c.png", Some(2))] {
+        let rerun = |more: &[&str]| run(work.path(), &[&["rerun", name], more].concat());
+        assert_eq!(rerun(&["--check"]).status.code(), Some(2), "{name}");
+        assert_eq!(rerun(&["-o", "again.png"]).status.code(), again, "{name}");
+    }
+}
+
+#[test]
 fn render_takes_a_picture_for_its_scene_and_settings() {
     let work = workplace();
     done(work.path(), &RENDER);

@@ -356,6 +356,14 @@ mod tests {
     use super::*;
     use crate::raster::SamplePattern;
 
+    #[test]
+    fn limits_are_those_of_the_help_page() {
+        let page = include_str!("../cli/help/figures.md").replace('\n', " ");
+        let (millions, side) = (MAX_PIXELS >> 20, Framebuffer::MAX_SIDE);
+        let line = format!("at most {millions} million pixels and {side} a side");
+        assert!(page.contains(&line), "{line}");
+    }
+
     fn plan(columns: usize, rows: usize, panel: [u32; 2]) -> SheetPlan {
         SheetPlan {
             panel,

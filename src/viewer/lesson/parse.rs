@@ -426,6 +426,13 @@ mod tests {
     }
 
     #[test]
+    fn limits_are_those_of_the_help_page() {
+        let page = include_str!("../../cli/help/lessons.md").replace('\n', " ");
+        let line = format!("at most {MOST_STEPS} steps, and a step at most {LONGEST_TEXT} bytes of text");
+        assert!(page.contains(&line), "{line}");
+    }
+
+    #[test]
     fn built_in_lessons_are_whole() {
         for (index, (name, _)) in crate::viewer::BUILT_IN.iter().enumerate() {
             let lesson = crate::viewer::LessonSource::BuiltIn(index).read();

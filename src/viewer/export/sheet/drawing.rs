@@ -271,3 +271,14 @@ fn grid(lists: &AxisLists) -> (usize, bool) {
         None => (columns, false),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limit_is_that_of_the_help_page() {
+        let page = include_str!("../../../cli/help/figures.md");
+        assert!(page.contains(&format!("at most {MAX_PANELS} panels")));
+    }
+}

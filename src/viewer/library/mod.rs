@@ -6,6 +6,7 @@ pub mod gallery;
 mod listing;
 pub(in crate::viewer) mod readers;
 mod reading;
+mod stamps;
 pub(in crate::viewer) mod state;
 
 use std::cmp::Ordering;
@@ -16,6 +17,7 @@ use std::time::{Duration, Instant};
 
 use crate::raster::Framebuffer;
 use crate::scene::{DialectChoice, Problem, Progress, ReadOptions, Scene, SceneError};
+use crate::viewer::library::stamps::Stamps;
 use crate::viewer::view::camera::Camera;
 use crate::{plain, scene};
 
@@ -52,6 +54,8 @@ pub struct SceneEntry {
     pub(in crate::viewer) other_state: SceneState,
     /// Counts what was read: other numbers, other files, or the file read again.
     pub(in crate::viewer) document: u64,
+    /// The files that it was read from last, as they were then; `None` until then, and once the user gave it up.
+    pub(in crate::viewer) stamps: Option<Stamps>,
     /// Where the user last looked.
     pub camera: Camera,
     /// A small picture of it, once it was asked for and drawn.
@@ -116,6 +120,7 @@ impl SceneEntry {
             state: SceneState::Unread,
             other_state: SceneState::Unread,
             document: 0,
+            stamps: None,
             camera: Camera::default(),
             thumbnail: None,
             thumbnail_asked: false,
@@ -151,6 +156,17 @@ impl SceneEntry {
     /// Whether it is a file, not a scene of the gallery.
     pub fn is_file(&self) -> bool {
         matches!(self.source, SceneSource::File(_))
+    }
+
+    /// Whether it may be read otherwise now than it was: its files were saved, or it could not be read.
+    fn is_stale(&self) -> bool {
+        let Some(stamps) = &self.stamps else { return false };
+        match self.state {
+            SceneState::Unread | SceneState::Reading { .. } => false,
+            SceneState::Ready { .. } => !stamps.hold(),
+            // What it lacked, such as a texture, may be there by now.
+            SceneState::Failed { .. } => true,
+        }
     }
 
     /// Whether a thread is reading it.
@@ -203,6 +219,16 @@ impl SceneSource {
                 None => GALLERY_PREFIX.to_owned(),
             },
         }
+    }
+
+    /// The files of a scene's textures; none for one of the gallery.
+    pub(in crate::viewer) fn textures<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = PathBuf> + 'a {
+        let folder = match self {
+            Self::File(document) => Some(document.parent().unwrap_or(Path::new(""))),
+            Self::Gallery(_) => None,
+        };
+        let textures = scene.files.textures.iter();
+        textures.filter_map(move |(address, _)| Some(folder?.join(address)))
     }
 
     /// The scene that a person writes as an address: `gallery:NAME`, with its ending or without as it is spoken of, or a path.

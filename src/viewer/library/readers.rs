@@ -10,6 +10,7 @@ use crate::scene::{DialectChoice, Progress, Scene};
 use crate::texture::{LevelSampling, PixelSampling};
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
+use crate::viewer::library::stamps::Stamps;
 use crate::viewer::library::{ReadFailure, SceneEntry, SceneSource, SceneState};
 
 /// Threads that read: a second one, so that a slow scene does not hold up the next.
@@ -72,6 +73,8 @@ pub(in crate::viewer) struct ReadScene {
     pub(in crate::viewer) index: usize,
     pub(in crate::viewer) document: u64,
     pub(in crate::viewer) dialect: DialectChoice,
+    /// The files that it was read from.
+    pub(in crate::viewer) stamps: Stamps,
     pub(in crate::viewer) result: Result<Arc<Scene>, ReadFailure>,
 }
 
@@ -93,12 +96,18 @@ impl Readers {
                 dialect,
                 ..
             } = order;
+            // Taken first: what is saved while it is read is read again.
+            let mut stamps = Stamps::of_document(&order.source);
             let result = order.read();
+            if let Ok(scene) = &result {
+                order.source.textures(scene).for_each(|texture| stamps.note(texture));
+            }
             scenes.post(ReadScene {
                 generation,
                 index,
                 document,
                 dialect,
+                stamps,
                 result,
             });
         };

@@ -17,8 +17,10 @@ impl SceneList {
     /// Sees to it that the current scene is read in the dialect that is set, and in B's.
     pub(in crate::viewer) fn want(&mut self, dialects: WantedDialects) {
         let Some(entry) = self.current() else { return };
+        let is_shown_anew = self.recent.last() != Some(&self.current);
         match entry.state.dialect() {
             None => self.read_current(dialects),
+            Some(_) if is_shown_anew && self.follows_files && entry.is_stale() => self.read_current(dialects),
             Some(dialect) if dialect != self.reading_of(self.current, dialects.own) => {
                 self.read_for(Side::A, dialects);
             }
@@ -117,6 +119,7 @@ impl SceneList {
         {
             progress.give_up();
             let message = format!("{}: {}", plain::line(&address), Problem::GivenUp);
+            entry.stamps = None;
             entry.state = SceneState::Failed {
                 why: ReadFailure { message, line: None },
                 dialect: *dialect,
@@ -151,6 +154,9 @@ impl SceneList {
         let before = before.filter(|scene| side == Side::A && dialect.allows(scene.dialect));
         if side == Side::A && read.result.is_err() && before.is_none() {
             entry.thumbnail = None;
+        }
+        if side == Side::A {
+            entry.stamps = Some(read.stamps);
         }
         if is_current || read.result.is_ok() {
             chrome.messages.forget_problems_of(&entry.source.address());

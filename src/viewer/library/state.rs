@@ -1,7 +1,7 @@
 //! The list of scenes: which is shown, and what was read of them.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::geometry::View;
 use crate::scene::Dialect;
@@ -86,10 +86,7 @@ impl SceneList {
         let Some((entry, SceneSource::File(document))) = self.current().map(|entry| (entry, &entry.source)) else {
             return Vec::new();
         };
-        let folder = document.parent().unwrap_or(Path::new(""));
-        let textures = entry.scene().map(|scene| scene.files.textures.as_slice());
-        let textures = textures.unwrap_or_default().iter();
-        let textures = textures.map(|(address, _)| folder.join(address));
+        let textures = entry.scene().into_iter().flat_map(|scene| entry.source.textures(scene));
         std::iter::once(document.clone()).chain(textures).collect()
     }
 

@@ -4,6 +4,8 @@ use std::fs;
 use std::time::Duration;
 
 use glam::dvec2;
+use rasterscope::figure::save_png;
+use rasterscope::raster::Framebuffer;
 use rasterscope::viewer::{Command, InspectorCommand, LessonCommand, LessonSource, MessageKind, SceneCommand, Toggle};
 use rasterscope::viewer::{ViewCommand, ViewNumbers, Viewer, ViewerOptions, WindowCommand};
 
@@ -80,6 +82,60 @@ fn files_are_followed_unless_that_is_not_wanted() {
     session.run(Command::Scenes(SceneCommand::FollowFiles(Toggle::On)));
     saved(&mut session);
     assert!(*session.pixels() != picture, "wanted");
+}
+
+#[test]
+fn scene_that_was_saved_behind_another_is_read_again_when_it_is_shown() {
+    let mut session = Session::open(&[TRIANGLES, TRIANGLES], [100, 80]);
+    let second = session.folder.path().join("2.svg");
+    let show = |session: &mut Session, index: usize| {
+        session.run(Command::Scenes(SceneCommand::Show(index)));
+    };
+    let behind = |session: &mut Session, document: &str| {
+        show(session, 0);
+        fs::write(&second, document).unwrap();
+        show(session, 1);
+    };
+    show(&mut session, 1);
+    let picture = session.pixels().clone();
+    let failure = |session: &Session| {
+        let entry = session.viewer.scene_list().current().unwrap();
+        entry.failure().map(str::to_owned)
+    };
+    behind(&mut session, SQUARE);
+    assert!(*session.pixels() != picture, "the new document");
+    let square = session.pixels().clone();
+    behind(&mut session, "<svg");
+    assert!(failure(&session).is_some(), "it is told that it is broken");
+    assert!(*session.pixels() == square, "as it was read last");
+    behind(&mut session, TRIANGLES);
+    assert_eq!(failure(&session), None, "mended");
+    assert!(*session.pixels() == picture, "the first document");
+    show(&mut session, 0);
+    fs::remove_file(&second).unwrap();
+    show(&mut session, 1);
+    assert!(failure(&session).is_some(), "it is told that it is gone");
+    session.run(Command::Scenes(SceneCommand::FollowFiles(Toggle::Off)));
+    behind(&mut session, TRIANGLES);
+    assert!(failure(&session).is_some(), "not wanted");
+}
+
+#[test]
+fn texture_that_was_saved_behind_another_scene_is_read_again_when_its_scene_is_shown() {
+    let textured = r#"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="40">
+      <image href="t.png" width="40" height="40"/></svg>"#;
+    let mut session = Session::open(&[TRIANGLES, textured], [100, 80]);
+    let texture = session.folder.path().join("t.png");
+    let mut show = |index: usize, color: u32, size: u32| {
+        let mut picture = Framebuffer::new(size, size);
+        picture.pixels_mut().fill(color);
+        save_png(&picture, &texture).unwrap();
+        session.run(Command::Scenes(SceneCommand::Show(index)));
+        session.pixels().clone()
+    };
+    let red = show(1, 0xffff_0000, 4);
+    show(0, 0xff00_00ff, 5);
+    assert!(show(1, 0xff00_00ff, 6) != red, "the texture of now");
 }
 
 #[test]

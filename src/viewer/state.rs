@@ -1,7 +1,7 @@
 //! The viewer itself: what it keeps, how it starts, what can be asked of it.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -286,13 +286,6 @@ impl Viewer {
     /// The lesson that is open, and the number of its step, from 0.
     pub fn lesson(&self) -> Option<(&Lesson, usize)> {
         self.lesson.as_ref().map(|walk| (&walk.lesson, walk.at))
-    }
-
-    /// The files that what is shown was read from: the scene's, those of its textures, the lesson's.
-    pub fn files(&self) -> Vec<PathBuf> {
-        let mut files = self.scene_list.files();
-        files.extend(self.lesson.as_ref().and_then(Walk::file).map(Path::to_owned));
-        files
     }
 
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done. To be called for

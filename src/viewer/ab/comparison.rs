@@ -262,7 +262,7 @@ impl Comparison {
 
     /// Whether B is there, or nothing of it is wanted: no scene, or no window to show it in.
     pub(in crate::viewer) fn is_current(&self) -> bool {
-        let waits = self.loading.is_some() || self.postponed.is_some();
+        let waits = self.loading.is_some() || self.measuring.rereads > 0 || self.postponed.is_some();
         !waits && self.drawn_other().is_none_or(Drawing::is_current)
     }
 

@@ -77,6 +77,8 @@ pub(in crate::viewer) struct Measuring {
     pub(in crate::viewer) found: Option<(Which, Measures)>,
     /// The two pictures that nothing more will be found about.
     pub(in crate::viewer) complete: Option<Which>,
+    /// How often B's picture is still to be read again.
+    pub(in crate::viewer) rereads: u64,
     /// Somebody waits: no rest.
     pub(in crate::viewer) hurry: bool,
     /// Somebody wants to go to a place that is not known yet.
@@ -86,7 +88,8 @@ pub(in crate::viewer) struct Measuring {
 /// What the thread does.
 pub(in crate::viewer) enum Work {
     Measure(Box<Job>),
-    Read(PathBuf),
+    /// The picture in a file, and whether it is B already.
+    Read(PathBuf, bool),
 }
 
 pub(in crate::viewer) struct Job {
@@ -125,6 +128,7 @@ impl Measuring {
             running: None,
             found: None,
             complete: None,
+            rereads: 0,
             hurry: false,
             jumps: false,
         }
@@ -144,7 +148,15 @@ impl Measuring {
     /// Reads a picture, before anything else is measured.
     pub(in crate::viewer) fn load(&mut self, path: PathBuf) -> io::Result<()> {
         self.cancel();
-        self.push(Work::Read(path))
+        self.push(Work::Read(path, false))
+    }
+
+    /// The same for one that is B already.
+    pub(in crate::viewer) fn load_again(&mut self, path: PathBuf) -> io::Result<()> {
+        self.cancel();
+        self.push(Work::Read(path, true))?;
+        self.rereads += 1;
+        Ok(())
     }
 
     /// Somebody waits, or waits no more.
@@ -185,7 +197,7 @@ impl Measuring {
             let (measured, read) = (self.measured.clone(), self.read.clone());
             let serve = move |work: Work| match work {
                 Work::Measure(job) => job.measure(&measured),
-                Work::Read(path) => read.post(ReadPicture::read(path)),
+                Work::Read(path, again) => read.post(ReadPicture::read(path, again)),
             };
             self.workers = Some(WorkerPool::start("compare", 1, AtEnd::Detach, serve)?);
         }

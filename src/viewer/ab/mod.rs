@@ -7,6 +7,7 @@ pub(in crate::viewer) mod comparison;
 pub(in crate::viewer) mod measuring;
 pub(in crate::viewer) mod other;
 pub(in crate::viewer) mod outside;
+mod reading;
 pub(in crate::viewer) mod requests;
 pub(in crate::viewer) mod sides;
 mod wipe;

@@ -20,6 +20,8 @@ pub struct OutsidePicture {
 #[derive(Debug)]
 pub(in crate::viewer) struct ReadPicture {
     pub(in crate::viewer) path: PathBuf,
+    /// Whether it is B already, and its file is read again.
+    pub(in crate::viewer) again: bool,
     pub(in crate::viewer) result: Result<Framebuffer, String>,
 }
 
@@ -48,7 +50,7 @@ pub(in crate::viewer) fn is_picture(path: &Path) -> bool {
 
 impl ReadPicture {
     /// Reads and decodes a file.
-    pub(in crate::viewer) fn read(path: PathBuf) -> Self {
+    pub(in crate::viewer) fn read(path: PathBuf, again: bool) -> Self {
         let name = path.display();
         let result = guarded(|| {
             let bytes = FolderResources::read_file(&path)
@@ -61,6 +63,6 @@ impl ReadPicture {
                 "{name}: reading this picture failed inside the program; please report it with the file"
             ))
         });
-        Self { path, result }
+        Self { path, again, result }
     }
 }

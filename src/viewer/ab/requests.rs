@@ -1,14 +1,11 @@
 //! What a user asks of a comparison: another B, another arrangement, other colours of differences.
 
-use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::color::ResolveSpace;
 use crate::compare::{Gain, Measure};
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::{Against, Arrangement, Other};
-use crate::viewer::ab::outside::{OutsidePicture, ReadPicture};
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::{Settings, Toggle, picture};
 use crate::viewer::view::panes::Moved;
@@ -206,47 +203,6 @@ impl Comparison {
         open
     }
 
-    /// Takes in a picture that was read; the newest request counts.
-    pub(in crate::viewer) fn picture_read(&mut self, read: ReadPicture, context: &mut ComparisonContext<'_>) {
-        if self.loading.as_ref() != Some(&read.path) {
-            return;
-        }
-        self.loading = None;
-        let name = read.path.display().to_string();
-        match read.result {
-            Ok(pixels) if pixels.pixels().is_empty() => {
-                context
-                    .messages
-                    .error(format!("{name}: has no pixels; give another picture"));
-            }
-            Ok(pixels) => {
-                context.messages.forget_problems_of(&name);
-                let picture = Arc::new(OutsidePicture {
-                    path: read.path,
-                    pixels,
-                });
-                let [width, height] = [picture.pixels.width(), picture.pixels.height()];
-                context.messages.done(format!(
-                    "B is {}; A is drawn with its size, {width} x {height} pixels",
-                    picture.name()
-                ));
-                self.set_other(Some(Other::Picture(picture)));
-                self.show_somehow(context);
-            }
-            Err(problem) => context.messages.error(problem),
-        }
-    }
-
-    fn load_picture(&mut self, path: PathBuf, messages: &mut Messages) {
-        match self.measuring.load(path.clone()) {
-            Ok(()) => self.loading = Some(path),
-            Err(error) => messages.error(format!(
-                "{}: cannot be read: {error}; close other programs",
-                path.display()
-            )),
-        }
-    }
-
     pub(in crate::viewer) fn set_other(&mut self, other: Option<Other>) {
         self.other = other;
         self.swapped = false;
@@ -258,7 +214,7 @@ impl Comparison {
     }
 
     /// What was asked for is to be seen at once: as a wipe, unless both share the window already.
-    fn show_somehow(&mut self, context: &mut ComparisonContext<'_>) {
+    pub(in crate::viewer) fn show_somehow(&mut self, context: &mut ComparisonContext<'_>) {
         if self.arrangement == Arrangement::Alone {
             self.arrange(Arrangement::Wipe, context);
         }

@@ -1,7 +1,5 @@
 //! Walking through a lesson: every step sets scene, settings, view, pin and comparison, whatever was changed before.
 
-use std::path::PathBuf;
-
 use glam::DVec2;
 
 use crate::geometry::View;
@@ -64,25 +62,9 @@ impl Lessons<'_> {
         }
     }
 
-    /// Reads again what is shown of these files, unless the user does not want that.
-    pub(in crate::viewer) fn files_changed(&mut self, files: &[PathBuf]) {
-        if !self.scene_list.follows_files || files.is_empty() {
-            return;
-        }
-        let file_of_lesson = self.lesson.as_ref().and_then(Walk::file);
-        let is_lesson = |file: &PathBuf| file_of_lesson == Some(file);
-        let (lesson, others) = (files.iter().any(is_lesson), !files.iter().all(is_lesson));
-        if lesson {
-            self.reload();
-        }
-        if others {
-            self.scene_list.read_current(self.ab.wanted_dialects(self.settings));
-        }
-    }
-
     /// Reads the open lesson again and stays at its step; where it cannot be read any more, it stays as it is and the user is
     /// told.
-    fn reload(&mut self) {
+    pub(in crate::viewer) fn reload(&mut self) {
         let Some(Walk {
             at,
             source: Some(source),
@@ -268,6 +250,8 @@ impl Lessons<'_> {
         *self.settings = before.settings;
         self.chrome.shown.explanation = before.explanation;
         self.ab.take_up(before.comparison);
+        // It may have been saved meanwhile.
+        self.ab.read_picture_again(&mut self.chrome.messages);
         (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, before.inspector);
         if let Some(place) = before.pin {
             self.inspector.pin_place(place, self.scene_list);

@@ -21,6 +21,7 @@ pub(in crate::viewer) mod pins;
 pub(in crate::viewer) mod pointing;
 pub(in crate::viewer) mod profiled;
 pub(in crate::viewer) mod recipes;
+pub(in crate::viewer) mod reread;
 pub(in crate::viewer) mod save;
 pub(in crate::viewer) mod sheet;
 pub(in crate::viewer) mod spectral;

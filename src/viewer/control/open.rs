@@ -96,12 +96,12 @@ impl Opening<'_> {
             }
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace(library::gallery_entries()),
-            SceneCommand::Reload => scenes.read_current(self.ab.wanted_dialects(self.settings)),
+            SceneCommand::Reload => self.reload(),
             SceneCommand::GiveUpReading => {
                 scenes.give_up_reading();
             }
             SceneCommand::RememberOpened(earlier) => scenes.remember_opened(&earlier),
-            SceneCommand::FilesChanged(files) => self.lessons().files_changed(&files),
+            SceneCommand::FilesChanged(files) => self.files_changed(&files),
             SceneCommand::FollowFiles(toggle) => {
                 let follows = toggle.of(scenes.follows_files);
                 scenes.follows_files = follows;

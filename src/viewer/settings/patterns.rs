@@ -11,8 +11,8 @@
 //!
 //! Records, captions and scripts carry the samples themselves, not the file, in a form that [`named`] reads.
 
-use std::path::Path;
-use std::sync::LazyLock;
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -107,6 +107,23 @@ pub fn is_pattern_file(path: &Path) -> bool {
     begins("samples") && !text.contains("[[step]]")
 }
 
+/// Patterns that were read from files, and from which; as the patterns themselves, these are of the whole process.
+static FILES: Mutex<Vec<(SamplePattern, PathBuf)>> = Mutex::new(Vec::new());
+
+/// The file that a pattern was read from, the last one where several hold the same.
+pub(in crate::viewer) fn file_of(pattern: SamplePattern) -> Option<PathBuf> {
+    let files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = files.iter().find(|(known, _)| *known == pattern);
+    known.map(|(_, file)| file.clone())
+}
+
+/// Notes the file of a pattern.
+fn note_file(pattern: SamplePattern, file: &Path) {
+    let mut files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
+    files.retain(|(known, _)| *known != pattern);
+    files.push((pattern, file.to_owned()));
+}
+
 /// The pattern in a file, as text that [`named`] reads.
 ///
 /// # Errors
@@ -122,7 +139,9 @@ pub fn of_file(path: &Path) -> Result<String, String> {
             pattern.name()
         ));
     }
-    Ok(value_of(SamplePattern::Custom(pattern)))
+    let pattern = SamplePattern::Custom(pattern);
+    note_file(pattern, path);
+    Ok(value_of(pattern))
 }
 
 /// The pattern in the TOML `document`, which is called `file`.

@@ -6,10 +6,11 @@ use std::time::Duration;
 use glam::dvec2;
 use rasterscope::figure::save_png;
 use rasterscope::raster::Framebuffer;
+use rasterscope::viewer::{AbCommand, Against, Arrangement};
 use rasterscope::viewer::{Command, InspectorCommand, LessonCommand, LessonSource, MessageKind, SceneCommand, Toggle};
 use rasterscope::viewer::{ViewCommand, ViewNumbers, Viewer, ViewerOptions, WindowCommand};
 
-use crate::support::session::{SQUARE, Session, TRIANGLES};
+use crate::support::session::{SQUARE, Session, TRIANGLES, set};
 
 /// Tells the viewer that the files it shows were saved.
 fn saved(session: &mut Session) {
@@ -136,6 +137,84 @@ fn texture_that_was_saved_behind_another_scene_is_read_again_when_its_scene_is_s
     let red = show(1, 0xffff_0000, 4);
     show(0, 0xff00_00ff, 5);
     assert!(show(1, 0xff00_00ff, 6) != red, "the texture of now");
+}
+
+#[test]
+fn picture_to_compare_with_is_followed() {
+    let mut session = Session::open(&[TRIANGLES], [100, 80]);
+    let file = session.folder.path().join("b.png");
+    let write = |color: u32, size: [u32; 2]| {
+        let mut picture = Framebuffer::new(size[0], size[1]);
+        picture.pixels_mut().fill(color);
+        // There may be none yet.
+        let _ = fs::remove_file(&file);
+        save_png(&picture, &file).unwrap();
+    };
+    let other = |session: &Session| session.viewer.ab().other_pixels().unwrap().clone();
+    let differing = |session: &Session| session.viewer.both().measures().unwrap().0.levels.differing();
+    write(0xffff_0000, [60, 40]);
+    session.run(Command::Ab(AbCommand::Compare(Against::File(file.clone()))));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.run(Command::Ab(AbCommand::Swap));
+    assert!(session.viewer.files().contains(&file), "it is among the files");
+    let (red, differing_red) = (other(&session), differing(&session));
+    save_png(session.pixels(), &file.with_extension("own.png")).unwrap();
+    fs::rename(file.with_extension("own.png"), &file).unwrap();
+    saved(&mut session);
+    assert!(other(&session) == *session.pixels(), "as it was saved");
+    assert!(differing_red > 0 && differing(&session) == 0, "measured anew");
+    assert!(session.viewer.ab().is_swapped(), "on the same side");
+    write(0xffff_0000, [60, 40]);
+    session.keys(&["F5"]);
+    assert!(other(&session) == red, "by hand, too");
+    fs::write(&file, "no picture").unwrap();
+    saved(&mut session);
+    let told = errors(&session);
+    assert!(
+        told.len() == 1 && told[0].contains("b.png") && told[0].ends_with("B stays as it was read last"),
+        "{told:?}"
+    );
+    assert!(other(&session) == red, "it stays");
+    write(0xff00_00ff, [30, 20]);
+    saved(&mut session);
+    assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
+    assert_eq!(
+        [session.pixels().width(), session.pixels().height()],
+        [30, 20],
+        "A has its size"
+    );
+}
+
+#[test]
+fn pattern_of_a_file_is_followed() {
+    let mut session = Session::open(&[TRIANGLES], [100, 80]);
+    let file = session.folder.path().join("followed.toml");
+    let write = |samples: &str| fs::write(&file, format!("name = 'followed'\nsamples = [{samples}]")).unwrap();
+    let rates = |session: &Session| {
+        let own = session.viewer.settings();
+        let other = session.viewer.ab().other_settings(own);
+        [Some(own.render), other].map(|render| render.map(|render| render.sample_rate.samples()))
+    };
+    write("{ x = 0.3, y = 0.71 }, { x = 0.7, y = 0.31 }");
+    session.run(Command::Scenes(SceneCommand::Open(vec![file.clone()])));
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.run(set("pattern", "grid"));
+    assert!(session.viewer.files().contains(&file), "it is among the files");
+    write("{ x = 0.3, y = 0.71, weight = 3 }");
+    saved(&mut session);
+    assert_eq!(rates(&session), [Some(1), Some(3)], "B samples by it");
+    write("");
+    saved(&mut session);
+    let told = errors(&session);
+    assert!(told.len() == 1 && told[0].contains("0 samples"), "{told:?}");
+    write("{ x = 0.3, y = 0.71, weight = 5 }");
+    session.keys(&["F5"]);
+    assert_eq!(rates(&session), [Some(1), Some(5)], "by hand, too");
+    assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
+    session.run(Command::Scenes(SceneCommand::Open(vec![file.clone()])));
+    write("{ x = 0.3, y = 0.71, weight = 6 }");
+    saved(&mut session);
+    assert_eq!(rates(&session), [Some(6), Some(6)], "A samples by it, too");
 }
 
 #[test]

@@ -221,12 +221,19 @@ impl SceneSource {
         }
     }
 
+    /// The document's file; a scene of the gallery has none.
+    pub(in crate::viewer) fn document(&self) -> Option<&Path> {
+        match self {
+            Self::File(document) => Some(document),
+            Self::Gallery(_) => None,
+        }
+    }
+
     /// The files of a scene's textures; none for one of the gallery.
     pub(in crate::viewer) fn textures<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = PathBuf> + 'a {
-        let folder = match self {
-            Self::File(document) => Some(document.parent().unwrap_or(Path::new(""))),
-            Self::Gallery(_) => None,
-        };
+        let folder = self
+            .document()
+            .map(|document| document.parent().unwrap_or(Path::new("")));
         let textures = scene.files.textures.iter();
         textures.filter_map(move |(address, _)| Some(folder?.join(address)))
     }

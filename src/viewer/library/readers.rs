@@ -97,7 +97,7 @@ impl Readers {
                 ..
             } = order;
             // Taken first: what is saved while it is read is read again.
-            let mut stamps = Stamps::of_document(&order.source);
+            let mut stamps = Stamps::of_document(order.source.document());
             let result = order.read();
             if let Ok(scene) = &result {
                 order.source.textures(scene).for_each(|texture| stamps.note(texture));

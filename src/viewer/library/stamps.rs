@@ -4,8 +4,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::viewer::library::SceneSource;
-
 /// Length and time of a file; `None` where there is none.
 type Stamp = Option<(u64, Option<SystemTime>)>;
 
@@ -14,11 +12,11 @@ type Stamp = Option<(u64, Option<SystemTime>)>;
 pub(in crate::viewer) struct Stamps(Vec<(PathBuf, Stamp)>);
 
 impl Stamps {
-    /// The document as it is now; nothing for a scene of the gallery.
-    pub(in crate::viewer) fn of_document(source: &SceneSource) -> Self {
+    /// The document as it is now; a scene of the gallery has none.
+    pub(in crate::viewer) fn of_document(document: Option<&Path>) -> Self {
         let mut stamps = Self::default();
-        if let SceneSource::File(document) = source {
-            stamps.note(document.clone());
+        if let Some(document) = document {
+            stamps.note(document.to_owned());
         }
         stamps
     }
@@ -49,22 +47,18 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [document, texture] = ["a.svg", "a.png"].map(|name| folder.path().join(name));
         fs::write(&document, "1").expect("a file");
-        let source = SceneSource::File(document.clone());
-        let mut stamps = Stamps::of_document(&source);
+        let mut stamps = Stamps::of_document(Some(&document));
         stamps.note(texture.clone());
         assert!(stamps.hold(), "one that is missing may stay so");
         fs::write(&texture, "1").expect("a file");
         assert!(!stamps.hold(), "a file that was not there");
-        let mut stamps = Stamps::of_document(&source);
+        let mut stamps = Stamps::of_document(Some(&document));
         stamps.note(texture.clone());
         fs::write(&texture, "12").expect("a file");
         assert!(!stamps.hold(), "a texture that was saved");
-        let stamps = Stamps::of_document(&source);
+        let stamps = Stamps::of_document(Some(&document));
         fs::remove_file(&document).expect("removed");
         assert!(!stamps.hold(), "a document that is gone");
-        assert!(
-            Stamps::of_document(&SceneSource::Gallery(0)).hold(),
-            "the gallery stays as it is"
-        );
+        assert!(Stamps::of_document(None).hold(), "the gallery stays as it is");
     }
 }

@@ -4,7 +4,7 @@ use crate::color::ResolveSpace;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
 use crate::viewer::ab::comparison::Comparison;
-use crate::viewer::ab::other::Other;
+use crate::viewer::ab::other::{Arrangement, Other};
 use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::settings::{Settings, picture};
 
@@ -28,7 +28,31 @@ fn differing(a: &Settings, b: &Settings) -> Vec<Differing> {
         .collect()
 }
 
+/// Whose picture fills the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::viewer) enum Filling {
+    A,
+    B,
+    /// B, which is a picture from outside.
+    Outside,
+    /// Both share it, or their difference does.
+    Shared,
+}
+
 impl Comparison {
+    /// Whose picture fills the frame at this moment.
+    pub(in crate::viewer) fn filling(&self) -> Filling {
+        match (self.arrangement(), self.other()) {
+            (Arrangement::Wipe | Arrangement::SideBySide | Arrangement::Difference, _) => Filling::Shared,
+            (Arrangement::Alone | Arrangement::Flip, Some(other)) if self.shows_both() && self.shows_b() => match other
+            {
+                Other::Picture(_) => Filling::Outside,
+                Other::Settings { .. } | Other::Truth(_) => Filling::B,
+            },
+            (Arrangement::Alone | Arrangement::Flip, _) => Filling::A,
+        }
+    }
+
     /// B's settings, where it is drawn; `own` are A's.
     pub fn other_settings(&self, own: &Settings) -> Option<RenderSettings> {
         match self.other()? {

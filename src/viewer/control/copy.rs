@@ -21,6 +21,16 @@ impl Copied {
         }
     }
 
+    /// The command line of the current picture, with a word about what it leaves out; `None` without a picture.
+    pub(in crate::viewer) fn command_line(recipes: &Recipes<'_>) -> Option<Self> {
+        let line = recipes.command_line()?;
+        let whose = if recipes.draws_a_alone() { ", of A alone" } else { "" };
+        Some(Self {
+            message: format!("copied{whose}: {line}"),
+            effect: Effect::CopyText(line),
+        })
+    }
+
     /// The pixel that the user means in words; `None` where there is none.
     pub(in crate::viewer) fn pixel(pixels: &Pointing<'_>) -> Option<Self> {
         // In the inset the pointer reads pixels that the user looks at; elsewhere it is where it happens to be.
@@ -45,7 +55,8 @@ impl Copied {
         let frame = frame
             .filter(|_| both_current)
             .ok_or("nothing copied: there is no finished picture yet; copy again when it is drawn")?;
-        let recipe = recipes.recipe_of_frame(frame, both.ab.shows_both());
+        let frame = recipes.shown_frame(frame);
+        let recipe = recipes.recipe_of_frame(frame);
         let picture = recipes.shot_of(frame, recipe.as_ref()).picture()?;
         let (width, height) = (picture.width(), picture.height());
         Ok(Self {

@@ -5,13 +5,17 @@ use std::sync::Arc;
 
 use crate::figure::{Guard, InsetPlace, InsetSpec, PixelRect, Record, add_legends, add_tags, tag_unit};
 use crate::raster::Framebuffer;
+use crate::render::Visualisation;
+use crate::scene::Scene;
 use crate::viewer::ab::other::Other;
+use crate::viewer::ab::sides::Filling;
 use crate::viewer::control::both::Both;
 use crate::viewer::control::pointing::Pointing;
 use crate::viewer::control::window::WindowContent;
 use crate::viewer::export::saver::{Recipe, Shot};
 use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
-use crate::viewer::frames::frame::Frame;
+use crate::viewer::frames::frame::{Frame, Picture};
+use crate::viewer::settings::Settings;
 
 /// What is in the window, as somebody else can make it again.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +25,17 @@ pub struct Recipes<'a> {
 }
 
 impl Recipes<'_> {
-    /// The `rasterscope render` command that makes the current picture, quoted for a POSIX shell; `None` without a
-    /// scene or without pixels. Options that have their default value are left out, but for size and view.
+    /// The `rasterscope render` command that makes the current picture, quoted for a POSIX shell: of B where that fills the
+    /// frame, of A where both share it; `None` without a scene or without pixels. Options that have their default value are
+    /// left out, but for size and view.
     pub fn command_line(&self) -> Option<String> {
         let output = output_name(&self.both.scene_list.current()?.label);
-        Some(shell_line(&self.picture_spec()?.arguments(&output)))
+        Some(shell_line(&self.shown_spec()?.arguments(&output)))
+    }
+
+    /// Whether [`Recipes::command_line`] draws A where more than A is to be seen, or something else.
+    pub(in crate::viewer) fn draws_a_alone(&self) -> bool {
+        matches!(self.both.ab.filling(), Filling::Outside | Filling::Shared)
     }
 
     /// The record of a picture of the window that is written to `output`; `None` without a scene.
@@ -33,15 +43,48 @@ impl Recipes<'_> {
         Some(self.recipe_of_window()?.record(output))
     }
 
-    /// What decides the current picture; `None` without a scene or without pixels.
+    /// What decides A's picture; `None` without a scene or without pixels.
     pub(in crate::viewer) fn picture_spec(&self) -> Option<PictureSpec> {
+        self.spec_of(self.both.settings, self.both.scene_list.current()?.scene())
+    }
+
+    /// The same of the picture that fills the frame; of A where both share it.
+    fn shown_spec(&self) -> Option<PictureSpec> {
+        match self.settings_of_b() {
+            Some(settings) => self.spec_of(&settings, self.shown_scene()),
+            None => self.picture_spec(),
+        }
+    }
+
+    /// B's settings where B fills the frame.
+    fn settings_of_b(&self) -> Option<Settings> {
+        let (ab, own) = (self.both.ab, self.both.settings);
+        let render = ab.other_settings(own).filter(|_| ab.filling() == Filling::B)?;
+        Some(Settings {
+            render,
+            dialect: ab.own_dialect_of_b(own).unwrap_or(own.dialect),
+            ..*own
+        })
+    }
+
+    /// The scene as the picture that fills the frame shows it, which may be read in B's dialect.
+    fn shown_scene(&self) -> Option<&Arc<Scene>> {
+        let (ab, own) = (self.both.ab, self.both.settings);
+        let entry = self.both.scene_list.current()?;
+        match ab.own_dialect_of_b(own).filter(|_| ab.filling() == Filling::B) {
+            Some(_) => entry.other_state.scene(),
+            None => entry.scene(),
+        }
+    }
+
+    fn spec_of(&self, settings: &Settings, scene: Option<&Arc<Scene>>) -> Option<PictureSpec> {
         let (entry, size) = (self.both.scene_list.current()?, self.both.layout.frame_size());
         (!size.contains(&0)).then(|| PictureSpec {
             scene: entry.source.clone(),
             size,
             view: entry.camera.view(),
-            render: self.both.settings.render,
-            dialect: self.both.scene_list.dialect_of_picture(self.both.settings),
+            render: settings.render,
+            dialect: self.both.scene_list.dialect_of_picture(settings, scene),
             legend: true,
             insets: self.inset_spec().into_iter().collect(),
         })
@@ -62,38 +105,54 @@ impl Recipes<'_> {
 
     /// How the picture of the whole window was made.
     pub(in crate::viewer) fn recipe_of_window(&self) -> Option<Recipe> {
+        let differs = if self.draws_a_alone() {
+            "a picture of the window; the command line draws A alone, without panels"
+        } else {
+            "a picture of the window; the command line draws what it shows, without panels"
+        };
         Some(Recipe {
-            spec: self.picture_spec()?,
-            scene: Arc::clone(self.both.scene_list.current()?.scene()?),
+            spec: self.shown_spec()?,
+            scene: Arc::clone(self.shown_scene()?),
             command: None,
-            differs: Some("a picture of the window; the command line draws what it shows, without panels".to_owned()),
+            differs: Some(differs.to_owned()),
         })
     }
 
-    /// How a frame was made, and what else its picture shows.
-    pub(in crate::viewer) fn recipe_of_frame(&self, frame: &Frame, with_other: bool) -> Option<Recipe> {
-        let now = self.picture_spec()?;
+    /// The frame that a picture of this moment shows: B's where that fills it, else A's `own`.
+    pub(in crate::viewer) fn shown_frame<'f>(&'f self, own: &'f Arc<Frame>) -> &'f Arc<Frame> {
+        let ab = self.both.ab;
+        let other = ab.drawn_other().filter(|_| ab.filling() == Filling::B);
+        let other = other.and_then(|drawing| drawing.final_frame(drawing.newest_request()));
+        other.unwrap_or(own)
+    }
+
+    /// How a frame was made that [`Recipes::shown_frame`] gave, and what else its picture shows.
+    pub(in crate::viewer) fn recipe_of_frame(&self, frame: &Frame) -> Option<Recipe> {
+        let now = self.shown_spec()?;
         let picture = &frame.picture;
+        let filling = self.both.ab.filling();
         let spec = PictureSpec {
             size: picture.size,
             render: picture.settings,
             // What A and B share has its own insets, in window pixels.
-            insets: if with_other { Vec::new() } else { now.insets.clone() },
+            insets: match filling {
+                Filling::A | Filling::B => now.insets.clone(),
+                Filling::Outside | Filling::Shared => Vec::new(),
+            },
             ..now
         };
         let drawn_of_now = self
-            .both
-            .scene_list
-            .current()?
-            .scene()
+            .shown_scene()
             .is_some_and(|scene| Arc::ptr_eq(scene, &picture.scene));
         let seen_from_there = spec.view.transform(picture.scene.canvas, picture.size) == picture.view;
         let differs = if !drawn_of_now || !seen_from_there {
             Some("the view moved on while this picture was saved; the command line draws where it went")
-        } else if with_other {
-            Some("A and B share this picture; the command line draws A alone")
         } else {
-            None
+            match filling {
+                Filling::A | Filling::B => None,
+                Filling::Outside => Some("this picture is B, which comes from outside; the command line draws A alone"),
+                Filling::Shared => Some("A and B share this picture; the command line draws A alone"),
+            }
         };
         Some(Recipe {
             spec,
@@ -103,16 +162,18 @@ impl Recipes<'_> {
         })
     }
 
-    /// What a screenshot of this frame shows.
+    /// What a screenshot of this frame shows: where it fills the window, what its command line draws and nothing else.
     pub(in crate::viewer) fn shot_of(&self, frame: &Arc<Frame>, recipe: Option<&Recipe>) -> Shot {
-        if !self.both.ab.shows_both() {
-            return Shot::Frame {
-                frame: Arc::clone(frame),
-                insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
-                legends: self.both.legends_of_picture(),
-            };
+        if self.draws_a_alone() {
+            return Shot::Ready(self.picture_of_both());
         }
-        Shot::Ready(self.picture_of_both())
+        let Picture { settings, scene, .. } = &frame.picture;
+        let shown = Some(settings.visualisation).filter(|shown| *shown != Visualisation::Color);
+        Shot::Frame {
+            frame: Arc::clone(frame),
+            insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
+            legends: shown.and_then(|shown| shown.legend(scene)).into_iter().collect(),
+        }
     }
 
     /// What A and B share, with its tags and legends; the whole window where insets lie over it.

@@ -72,7 +72,7 @@ impl Saving<'_> {
             ExportCommand::CopyPixel => Copied::pixel(&recipes.pixels).map(Ok),
             ExportCommand::Copy | ExportCommand::CopyPicture => Some(Copied::picture(recipes)),
             ExportCommand::CopyExplanation => Some(Copied::explanation(recipes)),
-            ExportCommand::CopyCommandLine => recipes.command_line().map(Copied::text).map(Ok),
+            ExportCommand::CopyCommandLine => Copied::command_line(recipes).map(Ok),
         }
     }
 
@@ -113,7 +113,8 @@ impl Saving<'_> {
         if both.ab.shows_both() && !both.ab.is_current() {
             return Screenshots::Wait;
         }
-        let recipe = self.recipes.recipe_of_frame(frame, both.ab.shows_both());
+        let frame = self.recipes.shown_frame(frame);
+        let recipe = self.recipes.recipe_of_frame(frame);
         for file in std::mem::take(&mut saver.waiting) {
             let shot = self.recipes.shot_of(frame, recipe.as_ref());
             saver.push(Work::Picture {

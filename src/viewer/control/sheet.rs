@@ -85,7 +85,9 @@ impl Recipes<'_> {
         let entry = both.scene_list.current().filter(|entry| !entry.is_reading())?;
         Some(KnownScene {
             scene: Arc::clone(entry.scene()?),
-            dialect: both.scene_list.dialect_of_picture(both.settings),
+            dialect: both
+                .scene_list
+                .dialect_of_picture(both.settings, both.scene_list.current()?.scene()),
             document: entry.document,
         })
     }

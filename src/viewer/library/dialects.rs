@@ -1,9 +1,10 @@
 //! In which dialect scenes are read, and which one a folder was given by hand.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::rules::Rules;
-use crate::scene::{Dialect, DialectChoice};
+use crate::scene::{Dialect, DialectChoice, Scene};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
 use crate::viewer::settings::Settings;
@@ -51,10 +52,13 @@ impl SceneList {
         }
     }
 
-    /// The choice of dialect that makes the current picture from its file alone.
-    pub(in crate::viewer) fn dialect_of_picture(&self, settings: &Settings) -> DialectChoice {
+    /// The choice of dialect that makes the current picture from its file alone, where that was read as `scene`.
+    pub(in crate::viewer) fn dialect_of_picture(
+        &self,
+        settings: &Settings,
+        scene: Option<&Arc<Scene>>,
+    ) -> DialectChoice {
         let choice = self.reading_of(self.current, settings.dialect);
-        let scene = self.current().and_then(SceneEntry::scene);
         let Some(dialect) = scene.map(|scene| scene.dialect) else {
             return choice;
         };

@@ -80,7 +80,7 @@ fn screenshot_of_both_says_which_is_whose() {
         (Arrangement::Wipe, [true, true]),
         (Arrangement::SideBySide, [true, true]),
         (Arrangement::Difference, [true, false]),
-        (Arrangement::Flip, [true, false]),
+        (Arrangement::Flip, [false, false]),
     ];
     for (index, (arrangement, halves)) in arrangements.into_iter().enumerate() {
         session.run(Command::Ab(AbCommand::Arrange(arrangement)));
@@ -100,6 +100,51 @@ fn screenshot_of_both_says_which_is_whose() {
     assert!(
         read(&session.pictures()[4]) == rgba(session.pixels()),
         "A alone has none"
+    );
+}
+
+#[test]
+fn picture_that_fills_the_frame_is_saved_with_its_own_record() {
+    use rasterscope::viewer::Arrangement;
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    session.run(Command::Ab(AbCommand::Compare(
+        Against::from_text("sample-rate 4").unwrap(),
+    )));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Alone)));
+    let copied = |session: &mut Session| {
+        let effects = session.run(Command::Export(ExportCommand::CopyCommandLine));
+        let [Effect::CopyText(line)] = &effects[..] else {
+            panic!("{effects:?}")
+        };
+        let said = session.viewer.chrome().messages().last().unwrap().text.clone();
+        (
+            line.contains("--sample-rate 4"),
+            said.starts_with("copied, of A alone: "),
+        )
+    };
+    for (index, of_b) in [true, false].into_iter().enumerate() {
+        session.run(Command::Ab(AbCommand::FlipByHand));
+        assert_eq!(session.viewer.ab().shows_b(), of_b, "in turn");
+        assert_eq!(copied(&mut session), (of_b, false), "of the one that is seen");
+        session.keys(&["s"]);
+        let file = &session.pictures()[index];
+        let record = Record::of_file(file).unwrap().unwrap();
+        assert_eq!(record.differs, None, "the command line draws just this");
+        assert_eq!(
+            record.command_line.contains("--sample-rate 4"),
+            of_b,
+            "{}",
+            record.command_line
+        );
+        let other = session.viewer.ab().other_pixels().unwrap();
+        let shown = if of_b { other } else { session.pixels() };
+        assert!(read(file) == rgba(shown), "every pixel");
+    }
+    session.keys(&["w"]);
+    assert_eq!(
+        copied(&mut session),
+        (false, true),
+        "where both share the window it says so"
     );
 }
 

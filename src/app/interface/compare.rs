@@ -99,8 +99,8 @@ pub(super) fn details(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>)
 /// What A and B are, the one in front first.
 fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
-    if let Some(Other::Truth(resolve)) = viewer.ab().other() {
-        truth(ui, *resolve, commands);
+    if let Some(Other::Truth(_)) = viewer.ab().other() {
+        truth(ui, viewer.ab().truth_space(), commands);
     }
     let mut sides = viewer.ab().sides(viewer.settings()).unwrap_or_default();
     if viewer.ab().is_swapped() {
@@ -137,7 +137,7 @@ fn truth(ui: &mut Ui, current: Option<ResolveSpace>, commands: &mut Vec<Command>
     let values: Vec<_> = values.collect();
     row(ui, "Averages", |ui| {
         let chosen = choice(ui, "The truth averages", tip, current, &values);
-        commands.extend(chosen.map(|resolve| Command::Ab(AbCommand::Compare(Against::Truth(resolve)))));
+        commands.extend(chosen.map(|space| Command::Ab(AbCommand::SetTruthSpace(space))));
     });
 }
 

@@ -9,11 +9,13 @@
 use crate::viewer::{AbCommand, Against, InspectorCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
+use egui::accesskit::Toggled;
 use glam::dvec2;
 
 use super::hands::{click, key, nodes, place_of, session};
 use super::small_windows::{click_on, comparing, right_click, says};
 use super::*;
+use crate::color::ResolveSpace;
 use crate::render::Visualisation;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Arrangement, Toggle};
@@ -39,6 +41,24 @@ fn columns(session: &Session) -> Vec<f64> {
     let step = free.width as usize / COUNT;
     let all = (free.x + 6..free.right() - 6).step_by(step);
     all.map(|x| x as f64).collect()
+}
+
+#[test]
+fn row_of_the_truth_shows_what_it_is_averaged_in() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Ab(AbCommand::SetTruthSpace(Some(ResolveSpace::Linear))));
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    let lit = |session: &mut Session| -> Vec<String> {
+        session.settle();
+        let nodes = nodes(session);
+        let row = nodes.iter().filter(|node| node.toggled() == Some(Toggled::True));
+        let names = row.filter_map(|node| node.label()?.strip_prefix("The truth averages: "));
+        names.map(str::to_owned).collect()
+    };
+    assert_eq!(lit(&mut session), ["linear"], "as it was chosen for every truth");
+    click_on(&mut session, "The truth averages: as A");
+    assert_eq!(session.viewer.ab().truth_space(), None, "it is chosen anew");
+    assert_eq!(lit(&mut session), ["as A"], "and shown");
 }
 
 #[test]

@@ -25,13 +25,9 @@ impl Explanation {
             }
         };
         compare("colour", self.hex.clone(), b.hex.clone());
-        let mean = |of: &Self| {
-            of.resolve
-                .mean
-                .map(|channel| number((channel * 100.0).round() / 100.0))
-                .join(", ")
-        };
-        compare("mean", mean(self), mean(b));
+        if let Some([mine, other]) = self.means(b) {
+            compare("mean", mine, other);
+        }
         let samples = |of: &Self| {
             if of.exact {
                 "none: exact areas".to_owned()
@@ -87,6 +83,24 @@ impl Explanation {
         }
         found.extend(by_what(&textures));
         found
+    }
+
+    /// Both means in one unit: light and stored values are two, and there the mean is told as it is stored. `None` where these
+    /// show one colour.
+    fn means(&self, b: &Self) -> Option<[String; 2]> {
+        let one_unit = self.resolve.space == b.resolve.space;
+        if !one_unit && self.hex == b.hex {
+            return None;
+        }
+        let words = |of: &Self| {
+            let mean = if one_unit {
+                of.resolve.mean
+            } else {
+                of.resolve.stored_mean()
+            };
+            mean.map(|channel| number((channel * 100.0).round() / 100.0)).join(", ")
+        };
+        Some([words(self), words(b)])
     }
 
     /// The part of the pixel that a paint covers, as the picture counts it: its area, or the part of the samples.

@@ -1,7 +1,7 @@
 //! How samples became a pixel, in numbers: the mean of its own, or weighted ones of its neighbours too.
 
 use super::model::{Around, Resolve, Rounding, Taken};
-use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
+use crate::color::{Premultiplied16, ResolveSpace, WeightedSum, encoded};
 use crate::raster::{self, PixelReplay, WeighedPixel};
 use crate::render::RenderSettings;
 use crate::rules::Rules;
@@ -46,6 +46,19 @@ pub(super) fn resolve(replay: &PixelReplay, settings: &RenderSettings) -> Resolv
         rounding,
         summed_exactly: replay.summed_exactly,
         around: None,
+    }
+}
+
+impl Resolve {
+    /// The mean in stored values, weighted by alpha.
+    pub(super) fn stored_mean(&self) -> [f64; 4] {
+        let [r, g, b, alpha] = self.mean;
+        if self.space == ResolveSpace::Stored.name() || alpha <= 0.0 {
+            return self.mean;
+        }
+        let part = alpha / 255.0;
+        let stored = |light: f64| encoded((light / part).clamp(0.0, 255.0)) * part;
+        [stored(r), stored(g), stored(b), alpha]
     }
 }
 

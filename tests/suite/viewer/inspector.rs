@@ -88,6 +88,40 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
 }
 
 #[test]
+fn means_of_a_and_b_are_told_in_one_unit() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(set("sample-rate", "4"));
+    session.keys(&["r"]);
+    // At an edge, and where one colour fills the pixel.
+    let row = |session: &Session, what: &str| {
+        let inspector = session.viewer.inspector();
+        let differences = inspector.explanation()?.differences(inspector.other_explanation()?);
+        let row = differences.into_iter().find(|difference| difference.what == what)?;
+        Some([row.a, row.b])
+    };
+    session.run(set("resolve", "linear"));
+    let other = session.viewer.ab().other_pixels().unwrap().pixels().to_vec();
+    let differs = |(a, b): (&u32, &u32)| a != b;
+    let at_edge = session.pixels().pixels().iter().zip(&other).position(differs);
+    let at_edge = i64::try_from(at_edge.expect("edges are of another colour")).unwrap();
+    for pixel in [[at_edge % 400, at_edge / 400], [0, 0]] {
+        session.run(Command::Inspector(InspectorCommand::Pin(pixel)));
+        assert!(row(&session, "averaged as").is_some(), "the values differ");
+        let [colours, means] = ["colour", "mean"].map(|what| row(&session, what));
+        assert_eq!(
+            colours.is_some(),
+            means.is_some(),
+            "where both show one colour, nothing is told"
+        );
+        let Some(means) = means else { continue };
+        let red = |mean: &str| mean.split(',').next().unwrap().parse::<f64>().unwrap().round();
+        let explained = session.viewer.inspector().explanation().unwrap();
+        let off = (red(&means[0]) - f64::from(explained.color[0])).abs();
+        assert!(off <= 1.0, "in stored values: {means:?}");
+    }
+}
+
+#[test]
 fn inspector_explains_the_pinned_pixel() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     assert!(session.viewer.inspector().explanation().is_none(), "nothing is pinned");

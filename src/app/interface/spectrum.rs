@@ -26,8 +26,10 @@ use crate::viewer::{Command, SpectrumCommand, SpectrumFound, SpectrumPart, Toggl
 
 /// Free space around the card, in points.
 const MARGIN: f32 = 10.0;
-/// Widths that the card's contents may have, in points: the first for which there is room beside other things.
+/// Sides that the plot with its numbers may have, in points: the first for which there is room beside other things.
 const SIDES: [f32; 4] = [320.0, 270.0, 220.0, 190.0];
+/// Width of the card's contents at least, in points: that of the legend.
+const LEAST: f32 = 236.0;
 /// What is below and above the plot, in points: title, choices, words, legend.
 const BESIDES: f32 = 196.0;
 /// Width of the card around its contents, in points.
@@ -66,7 +68,7 @@ impl SpectrumCard {
         let room = free.shrink(MARGIN);
         let things = things(viewer, ui.pixels_per_point());
         let in_way = |place: Rect| things.iter().filter(|other| other.intersects(place)).count();
-        let size_of = |side: f32| vec2(side + FRAME, side + BESIDES);
+        let size_of = |side: f32| vec2(side.max(LEAST) + FRAME, side + BESIDES);
         let fits = |side: &f32| room.size().min_elem() > 0.0 && CardCorner::has_room(size_of(*side), room, in_way);
         let side = SIDES.into_iter().find(fits).unwrap_or(SIDES[3]);
         let corner = self.corner.choose(size_of(side), room, in_way);
@@ -81,8 +83,8 @@ impl SpectrumCard {
             .show(ui.ctx(), |ui| {
                 FocusPanel::Spectrum.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
-                    ui.set_width(side);
-                    head(ui, commands);
+                    ui.set_width(side.max(LEAST));
+                    head(ui, viewer, commands);
                     let heights = [size_of(side).y, room.height()].map(|height| height - HEAD);
                     below_title(ui, heights, |ui| {
                         choices(ui, viewer, commands);
@@ -123,9 +125,9 @@ fn hint(viewer: &Viewer) -> &'static str {
 }
 
 /// The title, and what closes the card.
-fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
+fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Spectrum").strong())
+        ui.label(RichText::new(title(viewer)).strong())
             .on_hover_text(tip("spectrum"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = ui.add(Button::new("\u{d7}").min_size(CONTROL));
@@ -137,11 +139,22 @@ fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
     });
 }
 
+/// Of what it is where that is not plain: beside B it is A's, and the difference is the one from the truth, whatever B is.
+fn title(viewer: &Viewer) -> &'static str {
+    let spectrum = viewer.spectrum();
+    match (spectrum.of(), spectrum.is_of_a()) {
+        (SpectrumOf::Difference, true) => "Spectrum: A \u{2212} truth",
+        (SpectrumOf::Difference, false) => "Spectrum: frame \u{2212} truth",
+        (SpectrumOf::Frame | SpectrumOf::Texture, true) => "Spectrum of A",
+        _ => "Spectrum",
+    }
+}
+
 /// Of what, and of which part.
 fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let spectrum = viewer.spectrum();
     let values = SpectrumOf::ALL.map(|of| (of, of.name().to_owned()));
-    let tip = "Of the frame as its pixels are, of what it differs from the truth by, of the mip level that the pinned pixel reads, or \
+    let tip = "Of the frame as its pixels are, A's where there is a B, of what it differs from the truth by (whatever B is), of the mip level that the pinned pixel reads, or \
                of the scene before pixels sample it. The difference costs a drawing with 256 samples for each pixel.";
     let chosen = choice(ui, "Spectrum of", tip, spectrum.of(), &values);
     commands.extend(chosen.map(SpectrumCommand::Of).map(Command::Spectrum));

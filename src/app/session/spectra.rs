@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use egui::accesskit::Node;
 use glam::dvec2;
 
 use super::hands::{nodes, place_of, session};
@@ -9,6 +10,7 @@ use super::small_windows::{click_on, says};
 use super::*;
 use crate::compare::SpectrumOf;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{AbCommand, Against};
 use crate::viewer::{InspectorCommand, SpectrumCommand, SpectrumPart, Toggle};
 
 const CLOSE: &str = "Close the spectrum";
@@ -59,6 +61,41 @@ fn spectrum_of_a_texture_is_that_of_the_pin() {
     session.command(Command::Inspector(InspectorCommand::Pin([500, 500])));
     session.settle();
     assert!(says(&mut session, "level 0 of checker.png"), "the floor");
+}
+
+#[test]
+fn spectrum_beside_b_says_whose_it_is() {
+    let mut session = session(floor(), [1280, 800]);
+    open(&mut session);
+    assert!(!says(&mut session, "Spectrum of A"), "there is no B");
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.settle();
+    assert!(says(&mut session, "Spectrum of A"), "A's");
+    session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Difference)));
+    session.settle();
+    assert!(says(&mut session, "A \u{2212} truth"), "not less B");
+}
+
+#[test]
+fn narrow_card_of_a_spectrum_is_as_wide_as_its_frame() {
+    let mut session = session(floor(), [1100, 700]);
+    session.command(Command::Inspector(InspectorCommand::Pin([560, 440])));
+    open(&mut session);
+    let right = |name: &str, nodes: &[Node]| {
+        let node = nodes
+            .iter()
+            .find(|node| [node.label(), node.value()].contains(&Some(name)));
+        node.and_then(Node::bounds).map(|bounds| bounds.x1)
+    };
+    let nodes = nodes(&mut session);
+    let legend = right("both", &nodes).expect("the legend");
+    for name in [CLOSE, "Spectrum of: scene", "Part: around the pin"] {
+        let end = right(name, &nodes).expect(name);
+        assert!(
+            (end - legend).abs() < 4.0,
+            "{name} ends at {end}, the card's contents at {legend}"
+        );
+    }
 }
 
 #[test]

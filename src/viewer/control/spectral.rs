@@ -7,12 +7,15 @@ use glam::DVec2;
 use crate::compare::{SpectrumAnalysis, SpectrumOf};
 use crate::viewer::PixelRect;
 use crate::viewer::SpectrumCommand;
+use crate::viewer::ab::other::Arrangement;
+use crate::viewer::ab::sides::Filling;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::control::hand::Hand;
 use crate::viewer::control::pointing::Pointing;
 use crate::viewer::spectrum::question::{SpectrumFound, SpectrumPlace, SpectrumQuestion};
 use crate::viewer::spectrum::{SpectrumPart, SpectrumState};
 use crate::viewer::view::layout::magnified;
+use crate::viewer::view::panes::Pane;
 
 /// The spectrum of the picture.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +67,12 @@ impl<'a> Spectral<'a> {
         self.pixels.both.frames.drawing.is_current() && self.state.spectra.is_current()
     }
 
-    /// Where the pixels of the newest spectrum are to be seen: in every pane.
+    /// Whether it says of which picture it is: there is a B, and the spectrum is A's.
+    pub fn is_of_a(&self) -> bool {
+        self.pixels.both.ab.other().is_some()
+    }
+
+    /// Where the pixels of the newest spectrum are to be seen: wherever A is on the screen, and nowhere where it is not.
     pub fn panes(&self) -> Vec<SpectrumPane> {
         let Some(found) = self.found() else {
             return Vec::new();
@@ -73,14 +81,39 @@ impl<'a> Spectral<'a> {
         let layout = &self.pixels.both.layout;
         let zoom = f64::from(layout.zoom());
         let pixels = |[x, y]: [u32; 2]| DVec2::new(f64::from(x), f64::from(y));
-        let panes = layout.panes();
-        let all = std::iter::once(panes.first).chain(panes.second);
-        let place = all.map(|pane| SpectrumPane {
+        let place = self.panes_of_a().into_iter().map(|pane| SpectrumPane {
             corner: (pixels([region.x, region.y]) + DVec2::new(pane.corner[0] as f64, pane.corner[1] as f64)) * zoom,
             size: pixels([region.width, region.height]) * zoom,
             area: magnified(&pane.area, layout.zoom()),
         });
         place.collect()
+    }
+
+    /// The pane that shows A; of a wipe what lies on A's side of the line.
+    fn panes_of_a(&self) -> Option<Pane> {
+        let both = self.pixels.both;
+        let panes = both.layout.panes();
+        let swapped = both.ab.is_swapped();
+        match both.ab.arrangement() {
+            Arrangement::Difference => None,
+            Arrangement::Alone | Arrangement::Flip => (both.ab.filling() == Filling::A).then_some(panes.first),
+            Arrangement::SideBySide if swapped => panes.second,
+            Arrangement::SideBySide => Some(panes.first),
+            Arrangement::Wipe => {
+                let Some(line) = both.wipe_column() else {
+                    return Some(panes.first);
+                };
+                let Pane { corner, area } = panes.first;
+                let line = line.clamp(area.x, area.right());
+                let (from, to) = if swapped { (line, area.right()) } else { (area.x, line) };
+                let area = PixelRect {
+                    x: from,
+                    width: u32::try_from(to - from).unwrap_or(0),
+                    ..area
+                };
+                Some(Pane { area, corner })
+            }
+        }
     }
 
     /// What is asked; `None` while there is nothing to show.

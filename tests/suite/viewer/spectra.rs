@@ -4,6 +4,7 @@ use glam::dvec2;
 use rasterscope::compare::{SpectrumOf, SpectrumReading};
 use rasterscope::raster::Region;
 use rasterscope::viewer::script::{Script, ViewerStage, play};
+use rasterscope::viewer::{AbCommand, Against, Arrangement};
 use rasterscope::viewer::{Command, SpectrumPart, Toggle, ViewNumbers};
 use rasterscope::viewer::{InspectorCommand, ProfileCommand, SpectrumCommand, ViewCommand, WindowCommand};
 
@@ -99,6 +100,33 @@ fn spectrum_is_of_what_is_around_the_pin() {
     assert_eq!(places[0].corner, dvec2(72.0, 6.0), "there it lies in the window");
     session.run(spectrum(SpectrumCommand::Part(SpectrumPart::Whole)));
     assert_eq!(region(&session), Region::of_size([200, 160]), "all");
+}
+
+#[test]
+fn spectrum_lies_over_the_picture_that_it_is_of() {
+    let mut session = session();
+    session.run(spectrum(SpectrumCommand::Show(Toggle::On)));
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    let areas = |session: &Session| -> Vec<[f64; 2]> {
+        let panes = session.viewer.spectrum().panes().into_iter();
+        panes
+            .map(|pane| [pane.area.x as f64, pane.area.right() as f64])
+            .collect()
+    };
+    session.run(Command::Ab(AbCommand::SetWipe(0.25)));
+    let line = session.viewer.both().wipe_line().unwrap();
+    assert_eq!(areas(&session), [[0.0, line]], "on A's side of the line");
+    session.run(Command::Ab(AbCommand::Swap));
+    assert_eq!(areas(&session), [[line, 200.0]], "which may be the right one");
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    assert!(areas(&session)[0][0] > 0.0, "in A's half: {:?}", areas(&session));
+    session.run(Command::Ab(AbCommand::Swap));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Difference)));
+    assert_eq!(areas(&session), [[0.0; 2]; 0], "a difference is no picture of A");
+    session.run(Command::Ab(AbCommand::FlipByHand));
+    assert_eq!(areas(&session), [[0.0; 2]; 0], "nor is B");
+    session.run(Command::Ab(AbCommand::FlipByHand));
+    assert_eq!(areas(&session).len(), 1, "A");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::viewer::ab::measuring::{Measured, Measuring, Stage};
 use crate::viewer::ab::other::{Arrangement, Other};
 use crate::viewer::chrome::Chrome;
 use crate::viewer::frames::drawing::{Changes, Drawing};
-use crate::viewer::frames::frame::Frame;
+use crate::viewer::frames::frame::{Frame, PreviewQuality};
 use crate::viewer::frames::job::Drawn;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::settings::PixelZoom;
@@ -41,6 +41,7 @@ impl Comparison {
             others: 0,
             swaps: 0,
             measuring,
+            stages: None,
             number: 0,
         }
     }
@@ -86,6 +87,8 @@ pub struct Comparison {
     pub(in crate::viewer) others: u64,
     /// How often both changed places.
     pub(in crate::viewer) swaps: u64,
+    /// How both frames were made that are not final, where their difference is to be seen.
+    pub(in crate::viewer) stages: Option<[Option<PreviewQuality>; 2]>,
     /// Grows with every change of what is to be seen that no frame's number tells.
     number: u64,
 }

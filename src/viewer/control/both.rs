@@ -13,6 +13,7 @@ use crate::viewer::chrome::Chrome;
 use crate::viewer::frames::composite::{Composite, Content};
 use crate::viewer::frames::drawing::Drawing;
 use crate::viewer::frames::frame::Picture;
+use crate::viewer::frames::refining::Refining;
 use crate::viewer::frames::state::Frames;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::Settings;
@@ -129,6 +130,11 @@ impl<'a> Both<'a> {
             Arrangement::Difference => {
                 let order = if swapped { "A \u{2212} B" } else { "B \u{2212} A" };
                 let what = format!("{order}, {}", self.ab.difference_style().measure.name());
+                let what = if self.refining().is_any() {
+                    format!("{what}, refining")
+                } else {
+                    what
+                };
                 vec![tag(what, left)]
             }
             Arrangement::Flip => {
@@ -181,6 +187,18 @@ impl<'a> Both<'a> {
             Some(_) => a.picture.shows_document_of(&b.picture),
         };
         in_step.then_some([&a.pixels, &b.pixels])
+    }
+
+    /// How far the frames of [`Both::pair`] are from final.
+    pub(in crate::viewer) fn refining(&self) -> Refining<'a> {
+        let frames = match &self.ab.held {
+            Some([a, b]) => [Some(&**a), Some(&**b)],
+            None => [
+                self.frames.drawing.frame(),
+                self.ab.drawn_other().and_then(Drawing::frame),
+            ],
+        };
+        Refining(frames.map(|frame| frame?.preview.as_ref()))
     }
 
     /// The same for threads.
@@ -239,7 +257,7 @@ impl<'a> Both<'a> {
             Arrangement::Flip => Content::One(if self.ab.flip_shows_back() { back } else { front }),
             Arrangement::Wipe => Content::Wipe([front, back], comparison.wipe_column(front.width(), &self.layout)),
             Arrangement::Difference => match &comparison.paint {
-                Some(paint) => Content::Difference([front, back], &paint.colors),
+                Some(paint) => Content::Difference([front, back], &paint.colors, self.refining()),
                 None => Content::One(front),
             },
         };

@@ -240,7 +240,18 @@ impl Drawings<'_> {
     pub(in crate::viewer) fn update_comparison(&mut self) {
         self.ab.flip_when_due();
         self.mix_paint();
+        self.note_stages();
         self.want_measures();
+    }
+
+    /// Where a frame becomes final, or begins to be drawn anew, the hatch of the difference may change everywhere.
+    fn note_stages(&mut self) {
+        let is_difference = self.ab.arrangement() == Arrangement::Difference;
+        let stages = is_difference.then(|| self.both().refining().qualities());
+        if self.ab.stages != stages {
+            self.ab.stages = stages;
+            self.ab.touch();
+        }
     }
 
     /// Normalised colours follow the frames once both are final: until then they stay as they are.

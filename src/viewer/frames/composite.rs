@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::compare::DifferencePaint;
 use crate::figure::PixelRect;
 use crate::raster::Framebuffer;
+use crate::viewer::frames::refining::Refining;
 use crate::viewer::view::panes::Pane;
 
 /// Where no frame reaches.
@@ -20,8 +21,8 @@ pub(in crate::viewer) enum Content<'a> {
     One(&'a Framebuffer),
     /// The first up to this column, the second from there on.
     Wipe([&'a Framebuffer; 2], u32),
-    /// How far the second is from the first.
-    Difference([&'a Framebuffer; 2], &'a DifferencePaint),
+    /// How far the second is from the first, where they can be compared.
+    Difference([&'a Framebuffer; 2], &'a DifferencePaint, Refining<'a>),
 }
 
 /// Up to two panes with what they show.
@@ -33,7 +34,7 @@ pub(in crate::viewer) struct Composite<'a> {
 impl<'a> Content<'a> {
     fn frame(&self) -> &'a Framebuffer {
         match self {
-            Self::One(frame) | Self::Wipe([frame, _], _) | Self::Difference([frame, _], _) => frame,
+            Self::One(frame) | Self::Wipe([frame, _], _) | Self::Difference([frame, _], ..) => frame,
         }
     }
 
@@ -51,7 +52,10 @@ impl<'a> Content<'a> {
                 left.copy_from_slice(of(first, &(columns.start..at)));
                 right.copy_from_slice(of(second, &(at..columns.end)));
             }
-            Self::Difference([first, second], paint) => paint.row(of(first, &columns), of(second, &columns), out),
+            Self::Difference([first, second], paint, refining) => {
+                paint.row(of(first, &columns), of(second, &columns), out);
+                refining.hatch(y, columns, out);
+            }
         }
     }
 }
@@ -211,7 +215,11 @@ mod tests {
         for measure in Measure::ALL {
             let paint = DifferencePaint::new(measure, 2.0);
             let whole = pane([0, 0], [70, 5], [0, 0]);
-            let picture = Composite::new(vec![(whole, Content::Difference([&a, &b], &paint))]).picture();
+            let picture = Composite::new(vec![(
+                whole,
+                Content::Difference([&a, &b], &paint, Refining::default()),
+            )])
+            .picture();
             let pixels = a.pixels().iter().zip(b.pixels());
             let expected: Vec<u32> = pixels.map(|(a, b)| paint.pixel(*a, *b)).collect();
             assert_eq!(picture.pixels(), expected, "{measure:?}");

@@ -9,6 +9,7 @@ pub(in crate::viewer) mod legends;
 pub(in crate::viewer) mod present;
 pub(in crate::viewer) mod preview;
 pub(in crate::viewer) mod progress;
+pub(in crate::viewer) mod refining;
 pub(in crate::viewer) mod request;
 pub(in crate::viewer) mod state;
 pub(in crate::viewer) mod surface;

@@ -1,6 +1,7 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
 use crate::viewer::{AbCommand, Against, WindowCommand};
+use egui::style::ScrollAnimation;
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Align2, Area, Button, Context, Id, Key, Label, Layout, Modal, Order, Rect, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
@@ -424,6 +425,7 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
                     area = area.vertical_scroll_offset(0.0);
                 }
                 area.show(ui, |ui| {
+                    ui.scroll_with_delta_animation(vec2(0.0, scrolled(ctx, height)), ScrollAnimation::none());
                     way = start::ways(ui, viewer, columns).taken;
                     ui.add_space(8.0);
                     let (left, right) = Group::ALL.split_at(if columns == 2 { 4 } else { Group::ALL.len() });
@@ -448,6 +450,18 @@ fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Co
         commands.push(Command::Window(WindowCommand::CloseDialog));
     }
     commands.extend(way);
+}
+
+/// How far keys scroll what is `height` high: by lines and by pages, up where that is above zero.
+fn scrolled(ctx: &Context, height: f32) -> f32 {
+    const LINE: f32 = 40.0;
+    let page = (height - LINE).max(LINE);
+    ctx.input(|input| {
+        let pressed = |key: Key| input.num_presses(key) as f32;
+        let lines = pressed(Key::ArrowUp) - pressed(Key::ArrowDown);
+        let pages = pressed(Key::PageUp) - pressed(Key::PageDown);
+        lines * LINE + pages * page
+    })
 }
 
 fn help_group(ui: &mut Ui, group: Group) {

@@ -36,7 +36,8 @@ impl Session {
             return Some(Command::Window(WindowCommand::StartCard(Toggle::Off)));
         }
         let command = commands::for_key(press)?;
-        if self.asks_again(&command) {
+        if self.asks_again(&command) || (self.viewer.chrome().dialog() == Some(Dialog::Help) && !is_for_help(&command))
+        {
             return None;
         }
         let typing = self.interface.has_keyboard();
@@ -139,4 +140,19 @@ impl Session {
     pub(super) fn to_points(&self, at: DVec2) -> Pos2 {
         pos2(at.x as f32, at.y as f32) / self.scale()
     }
+}
+
+/// Whether a key does its work over the sheet of all keys: those that close it, and those of the window itself. What the others
+/// change would lie behind it.
+fn is_for_help(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::Window(
+            WindowCommand::Escape
+                | WindowCommand::ToggleDialog(Dialog::Help)
+                | WindowCommand::Quit
+                | WindowCommand::StepInterfaceScale { .. }
+                | WindowCommand::SetInterfaceScale(_)
+        )
+    )
 }

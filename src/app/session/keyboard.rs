@@ -177,6 +177,40 @@ fn keys_press_the_buttons_of_cards_and_nothing_behind_them() {
 }
 
 #[test]
+fn keys_do_nothing_behind_the_sheet_of_all_keys() {
+    for closes in ["?", "F1", "Escape"] {
+        let mut session = session(Vec::new(), [640, 480]);
+        let before = (*session.viewer.settings(), session.viewer.both().view_numbers());
+        key(&mut session, "?");
+        session.settle();
+        let top = |session: &mut Session| {
+            let is_line = |node: &egui::accesskit::Node| {
+                node.value()
+                    .is_some_and(|value| value.contains("Reads the scene again"))
+            };
+            let line = nodes(session).into_iter().find(is_line);
+            line.and_then(|node| node.bounds()).map(|bounds| bounds.y0)
+        };
+        let at_first = top(&mut session);
+        for name in ["=", "Left", "PageDown", "w"] {
+            key(&mut session, name);
+            session.settle();
+        }
+        let after = (*session.viewer.settings(), session.viewer.both().view_numbers());
+        assert_eq!(before, after, "the picture stays");
+        assert_eq!(session.viewer.scene_list().current_index(), 0, "and the scene");
+        assert!(session.viewer.ab().other().is_none(), "nothing is compared");
+        assert_ne!(top(&mut session), at_first, "a page further down");
+        key(&mut session, closes);
+        session.settle();
+        assert_eq!(session.viewer.chrome().dialog(), None, "{closes} closes it");
+        key(&mut session, "=");
+        session.settle();
+        assert_ne!(*session.viewer.settings(), before.0, "then keys are the picture's");
+    }
+}
+
+#[test]
 fn lesson_without_room_is_told() {
     let mut session = session(Vec::new(), [400, 300]);
     session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));

@@ -179,8 +179,8 @@ pub(in crate::viewer) const BOARD_VARY: Argument = argument(
     "a setting, with or without values, such as sample-rate 1,4,16",
     |text| {
         let axis = match text.split_once(char::is_whitespace) {
-            Some((name, values)) => Axis::read(name, values).ok()?,
-            None => Axis::first(picture::find(text)?),
+            Some((name, values)) => Axis::read(picture::option_meant(name), values).ok()?,
+            None => Axis::first(picture::find(picture::option_meant(text))?),
         };
         Some(Command::Board(BoardCommand::Vary(axis)))
     },
@@ -392,7 +392,7 @@ fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
         None
     } else {
         let (name, values) = text.split_once(char::is_whitespace)?;
-        Some(Axis::read(name, values).ok()?)
+        Some(Axis::read(picture::option_meant(name), values).ok()?)
     };
     Some(Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis))))
 }
@@ -413,6 +413,28 @@ mod tests {
         for wrong in ["", "c.jpg", "folder/", "..", "/"] {
             assert_eq!(file(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn settings_have_the_names_of_scripts_and_of_options() {
+        for (short, option) in [("rate 1,4", "sample-rate 1,4"), ("rate", "sample-rate")] {
+            let vary = BOARD_VARY.parse(option);
+            assert!(vary.is_ok(), "{option}");
+            assert_eq!(BOARD_VARY.parse(short), vary, "{short}");
+        }
+        assert_eq!(
+            BOARD_ADD.parse("rate 16, pattern sobol"),
+            BOARD_ADD.parse("sample-rate 16, pattern sobol"),
+            "changes, too"
+        );
+        assert_eq!(
+            Against::from_text("rate 4"),
+            Against::from_text("sample-rate 4"),
+            "and B"
+        );
+        let file = Some(Against::File("rate 4.png".into()));
+        assert_eq!(Against::from_text("rate 4.png"), file, "but a file may be called so");
+        assert!(BOARD_VARY.parse("zoom 1,4").is_err(), "no setting");
     }
 
     #[test]

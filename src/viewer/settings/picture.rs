@@ -20,6 +20,18 @@ pub fn find(name: &str) -> Option<&'static PictureSetting> {
     all().find(|setting| setting.option == name)
 }
 
+/// The option of the setting that a person calls `name`: that itself, or the word by which scripts and the palette set it, such
+/// as `rate`; else `name` as it is.
+pub(in crate::viewer) fn option_meant(name: &str) -> &str {
+    let sets = |setting: &&PictureSetting| {
+        let mut commands = setting.commands.iter();
+        commands.any(|command| command.takes_value && command.id == name)
+    };
+    find(name)
+        .or_else(|| all().find(sets))
+        .map_or(name, |setting| setting.option)
+}
+
 /// As [`find`].
 ///
 /// # Errors
@@ -77,7 +89,9 @@ pub fn are_defaults(settings: &Settings) -> bool {
 /// One line for the first that is none.
 pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, String> {
     let one = |part: &str| match part.trim().split_once(|c: char| c.is_whitespace() || c == '=') {
-        Some((name, value)) => SettingChange::of(name, value).map_err(|problem| format!("{name}: {problem}")),
+        Some((name, value)) => {
+            SettingChange::of(option_meant(name), value).map_err(|problem| format!("{name}: {problem}"))
+        }
         None => Err(format!(
             "\"{}\" is no setting with its value, such as sample-rate 16",
             part.trim()
@@ -93,7 +107,7 @@ pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, Strin
 /// One line where a file holds no value of its setting.
 pub fn read_files(text: &str, folder: Option<&Path>) -> Result<String, String> {
     let one = |part: &str| match part.trim().split_once(|c: char| c.is_whitespace() || c == '=') {
-        Some((name, value)) => match find(name).filter(|setting| setting.reads_files()) {
+        Some((name, value)) => match find(option_meant(name)).filter(|setting| setting.reads_files()) {
             Some(setting) => Ok(format!("{name} {}", setting.read(value.trim(), folder)?)),
             None => Ok(part.to_owned()),
         },
@@ -108,11 +122,11 @@ pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>>
     changes(text).ok()
 }
 
-/// Whether a text is meant to be settings: it starts with an option's name and a blank.
+/// Whether a text is meant to be settings: it starts with an option's name and a blank, or is all settings under their other
+/// names. A file may be called like those.
 pub(in crate::viewer) fn are_meant(text: &str) -> bool {
-    text.trim_start()
-        .split_once(char::is_whitespace)
-        .is_some_and(|(name, _)| find(name).is_some())
+    let name = text.trim_start().split_once(char::is_whitespace);
+    name.is_some_and(|(name, _)| find(name).is_some() || (find(option_meant(name)).is_some() && changes(text).is_ok()))
 }
 
 /// Changes the settings by all of these; tells in one line what else had to change.

@@ -69,17 +69,22 @@ impl Measure {
     }
 
     /// What the ends of its colours stand for where differences are multiplied with `gain`; of signed ones the middle, too.
-    pub fn marks(self, gain: f32) -> Vec<String> {
+    /// Where that is so that the largest difference is at the end (`is_normalized`), there is no more than that.
+    pub fn marks(self, gain: f32, is_normalized: bool) -> Vec<String> {
         let end = 1.0 / f64::from(gain);
+        // No difference of levels is larger than all of the scale.
+        let clips = !is_normalized && (self == Self::Relative || end < 1.0);
+        let more = if clips { " and more" } else { "" };
+        let zero = "0".to_owned();
         let levels = short(end * 255.0);
         match self {
-            Self::Signed => vec![format!("−{levels} levels"), "0".to_owned(), format!("+{levels} levels")],
-            Self::Absolute => vec!["0".to_owned(), format!("{levels} levels and more")],
-            Self::Relative => vec!["0".to_owned(), format!("{} % of A and more", short(end * 100.0))],
-            Self::Squared => vec![
-                "0".to_owned(),
-                format!("{} levels² and more", short(end * 255.0 * 255.0)),
-            ],
+            Self::Signed => {
+                let least = if clips { more } else { " levels" };
+                vec![format!("−{levels}{least}"), zero, format!("+{levels} levels{more}")]
+            }
+            Self::Absolute => vec![zero, format!("{levels} levels{more}")],
+            Self::Relative => vec![zero, format!("{} % of A{more}", short(end * 100.0))],
+            Self::Squared => vec![zero, format!("{} levels²{more}", short(end * 255.0 * 255.0))],
         }
     }
 }
@@ -148,15 +153,15 @@ impl DifferencePaint {
         self.measure
     }
 
-    /// What its colours mean.
-    pub fn legend(&self) -> Legend {
+    /// What its colours mean; see [`Measure::marks`].
+    pub fn legend(&self, is_normalized: bool) -> Legend {
         let map = self.measure.colormap();
         let last = f32::from(LEGEND_COLORS - 1);
         let colors = (0..LEGEND_COLORS).map(|step| match (map, f32::from(step) / last) {
             (Colormap::Diverging, part) => map.color(2.0 * part - 1.0),
             (Colormap::Sequential, part) => map.color(part),
         });
-        let marks = self.measure.marks(self.gain);
+        let marks = self.measure.marks(self.gain, is_normalized);
         let last = marks.len().saturating_sub(1).max(1) as f32;
         let ticks = (0_u16..).zip(marks).map(|(i, mark)| (f32::from(i) / last, mark));
         Legend {
@@ -366,7 +371,7 @@ mod tests {
     fn legend_has_the_colours_of_the_differences() {
         for measure in Measure::ALL {
             let paint = DifferencePaint::new(measure, 4.0);
-            let LegendKey::Scale(colors, ticks) = paint.legend().key else {
+            let LegendKey::Scale(colors, ticks) = paint.legend(false).key else {
                 panic!("{measure:?} has a scale");
             };
             let white = paint.pixel(0xff00_0000, 0xffff_ffff);
@@ -377,7 +382,23 @@ mod tests {
             let zero = usize::from(signed);
             assert_eq!(ticks[zero].1, "0", "{measure:?}");
         }
-        assert_eq!(Measure::Absolute.marks(4.0)[1], "63.8 levels and more");
+    }
+
+    #[test]
+    fn legend_says_more_only_where_there_may_be_more() {
+        for (measure, gain, is_normalized, expected) in [
+            (Measure::Signed, 1.0, false, "−255 levels | 0 | +255 levels"),
+            (Measure::Signed, 3.0, false, "−85 and more | 0 | +85 levels and more"),
+            (Measure::Signed, 3.0, true, "−85 levels | 0 | +85 levels"),
+            (Measure::Absolute, 1.0, false, "0 | 255 levels"),
+            (Measure::Absolute, 4.0, false, "0 | 63.8 levels and more"),
+            (Measure::Absolute, 2.0, true, "0 | 128 levels"),
+            (Measure::Squared, 1.0, false, "0 | 65025 levels²"),
+            (Measure::Relative, 1.0, false, "0 | 100 % of A and more"),
+        ] {
+            let words = measure.marks(gain, is_normalized).join(" | ");
+            assert_eq!(words, expected, "{measure:?} times {gain}");
+        }
     }
 
     const A: [u32; 4] = [0xFF64_6464, 0xFF64_6464, 0xFF64_6464, 0xFF00_0000];

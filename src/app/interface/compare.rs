@@ -14,6 +14,8 @@ use crate::viewer::{Against, Arrangement, Command, CommandSpec, Other, Toggle, V
 const LEGEND: f32 = 12.0;
 /// What closing a comparison does.
 const CLOSE_TIP: &str = "Forgets B. The settings of A stay as they are.";
+/// Gains below this have more digits.
+const SMALL_GAIN: f32 = 0.01;
 /// Colours that the legend shows.
 const LEGEND_STEPS: u16 = 120;
 
@@ -178,7 +180,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let field = DragValue::new(&mut value)
             .range(1e-6..=1e6)
             .speed(f64::from(gain) * 0.01)
-            .max_decimals(3)
+            .max_decimals(if gain < SMALL_GAIN { 8 } else { 3 })
             .custom_parser(finite)
             .prefix("× ");
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
@@ -211,7 +213,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             })));
         }
     });
-    legend(ui, style.measure, gain);
+    legend(ui, style.measure, gain, normalized);
     if style.measure == Measure::Signed {
         let other = if viewer.ab().is_swapped() { "A" } else { "B" };
         let text = format!("blue: {other} is darker; orange: {other} is lighter");
@@ -220,7 +222,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 }
 
 /// The colours from end to end with the numbers that they stand for.
-fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
+fn legend(ui: &mut Ui, measure: Measure, gain: f32, normalized: bool) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LEGEND), Sense::hover());
     let map = measure.colormap();
     let step = rect.width() / f32::from(LEGEND_STEPS);
@@ -237,7 +239,7 @@ fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
         let piece = piece.intersect(rect);
         ui.painter().rect_filled(piece, 0.0, egui::Color32::from_rgb(r, g, b));
     }
-    let numbers = measure.marks(gain);
+    let numbers = measure.marks(gain, normalized);
     let ink = ui.visuals().weak_text_color();
     let (row, _) = ui.allocate_exact_size(vec2(rect.width(), 14.0), Sense::hover());
     let last = numbers.len() - 1;

@@ -1,5 +1,6 @@
 //! What a slide marks in its picture.
 
+use crate::compare::Gain;
 use crate::figure::{PinRing, PixelRect, add_legends, tag_unit};
 use crate::raster::Framebuffer;
 use crate::viewer::ab::other::Arrangement;
@@ -34,7 +35,8 @@ pub(super) fn draw_marks(viewer: &Viewer, picture: &mut Framebuffer) {
     {
         let pins = viewer.pixels().pinned_places().into_iter();
         let spared: Vec<PixelRect> = pins.map(|pin| with_ring(&pin, RING_ROOM)).chain(insets).collect();
-        add_legends(picture, &[paint.colors.legend()], &spared);
+        let is_normalized = paint.style.gain == Gain::Normalize;
+        add_legends(picture, &[paint.colors.legend(is_normalized)], &spared);
     }
 }
 

@@ -4,6 +4,7 @@
 //! attributes of an element pairwise and expands entities; so a quick look at the text comes first.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::io::Read as _;
 
 use roxmltree::{Document, Error, ParsingOptions};
@@ -22,8 +23,10 @@ const MAX_TAGS: usize = 8_000_000;
 const MAX_ATTRIBUTES: usize = 8_000_000;
 /// Most attributes of one element, which the XML library compares pairwise.
 const MAX_ATTRIBUTES_OF_ONE: usize = 1_000;
-/// Most namespace declarations, which the XML library hands on to every element below.
-const MAX_NAMESPACES: usize = 256;
+/// Most different prefixes of namespaces, all of which the XML library looks through for a name.
+const MAX_PREFIXES: usize = 256;
+/// Most steps in which the XML library hands on namespaces: for each declaration it may compare all prefixes with all.
+const MAX_HANDING_ON: usize = 64_000_000;
 /// Most characters of the XML library's own message.
 const MAX_MESSAGE: usize = 200;
 /// Text between two marks of a [`LineIndex`], in bytes.
@@ -193,7 +196,10 @@ const XLINK: &str = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
 impl<'doc> Source<'doc> {
     /// Looks at the text before the XML library does.
     pub(super) fn new(original: &'doc str) -> Result<Self, Fault> {
-        let survey = Survey::new(original);
+        let mut survey = Survey::new(original);
+        if is_misleading(original) {
+            survey.count_all(original);
+        }
         let limits = [
             (survey.tags, MAX_TAGS, "tags"),
             (survey.attributes, MAX_ATTRIBUTES, "attributes"),
@@ -202,7 +208,12 @@ impl<'doc> Source<'doc> {
                 MAX_ATTRIBUTES_OF_ONE,
                 "attributes of one element",
             ),
-            (survey.namespaces, MAX_NAMESPACES, "namespace declarations"),
+            (survey.prefixes.len(), MAX_PREFIXES, "prefixes of namespaces"),
+            (
+                survey.declarations,
+                MAX_HANDING_ON / survey.prefixes.len().max(1).pow(2),
+                "namespace declarations with so many prefixes",
+            ),
         ];
         for (count, limit, what) in limits {
             if count > limit {
@@ -284,22 +295,23 @@ impl<'doc> Source<'doc> {
 
 /// What a quick look at the markup finds; never too little.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Survey {
+struct Survey<'text> {
     tags: usize,
     attributes: usize,
     most_attributes: usize,
-    namespaces: usize,
+    /// Declarations of namespaces, and their different prefixes; the default one has an empty prefix.
+    declarations: usize,
+    prefixes: HashSet<&'text [u8]>,
     /// Where the name of the first element ends.
     root_name_end: Option<usize>,
 }
 
-impl Survey {
-    fn new(text: &str) -> Self {
+impl<'text> Survey<'text> {
+    fn new(text: &'text str) -> Self {
         let mut survey = Self {
             // As the XML library counts when it reserves memory: even in comments and values.
             tags: text.bytes().filter(|byte| *byte == b'<').count(),
             attributes: text.bytes().filter(|byte| *byte == b'=').count(),
-            namespaces: text.matches("xmlns").count(),
             ..Self::default()
         };
         let mut rest = text;
@@ -309,7 +321,9 @@ impl Survey {
             let length = match markup.as_bytes() {
                 [b'<', b'!', b'-', b'-', ..] => markup.find("-->"),
                 [b'<', b'!', b'[', ..] => markup.find("]]>"),
-                [b'<', b'?' | b'!', ..] => Some(1),
+                [b'<', b'?', ..] => markup.find("?>"),
+                [b'<', b'!', b'E' | b'A' | b'N', ..] => markup.find('>'),
+                [b'<', b'!', ..] => Some(1),
                 tag => Some(survey.tag(tag, offset)),
             };
             rest = &markup[length.unwrap_or(markup.len()).clamp(1, markup.len())..];
@@ -317,15 +331,25 @@ impl Survey {
         survey
     }
 
+    /// Counts all words for namespaces, whatever they are, each as one with a prefix of its own.
+    fn count_all(&mut self, text: &'text str) {
+        let words = text.match_indices("xmlns").map(|(at, _)| &text.as_bytes()[..at]);
+        self.prefixes = words.take(MAX_PREFIXES + 1).collect();
+        self.declarations = self.prefixes.len();
+    }
+
     /// Counts the attributes of the tag at the start of `markup` and answers with its length.
-    fn tag(&mut self, markup: &[u8], offset: usize) -> usize {
+    fn tag(&mut self, markup: &'text [u8], offset: usize) -> usize {
         let mut quote = None;
         let mut attributes = 0;
         let mut length = markup.len();
         for (i, &byte) in markup.iter().enumerate() {
             match (quote, byte) {
                 (None, b'"' | b'\'') => quote = Some(byte),
-                (None, b'=') => attributes += 1,
+                (None, b'=') => {
+                    attributes += 1;
+                    self.declaration(&markup[..i]);
+                }
                 (None, b'>') => {
                     length = i;
                     break;
@@ -339,6 +363,31 @@ impl Survey {
         self.root_name_end.get_or_insert(offset + 1 + name);
         length
     }
+
+    /// Counts the attribute whose name `tag` ends with, if it declares a namespace.
+    fn declaration(&mut self, tag: &'text [u8]) {
+        let is_between = |byte: &u8| b" \t\r\n\"'=<".contains(byte);
+        let name = tag.trim_ascii_end().rsplit(is_between).next().unwrap_or(tag);
+        let prefix = match name.strip_prefix(b"xmlns") {
+            Some([]) => &[],
+            Some([b':', prefix @ ..]) => prefix,
+            _ => return,
+        };
+        self.declarations += 1;
+        if self.prefixes.len() <= MAX_PREFIXES {
+            self.prefixes.insert(prefix);
+        }
+    }
+}
+
+/// Whether a document type has brackets where a quick look would take them for tags: in an address, or in a parameter's value.
+fn is_misleading(text: &str) -> bool {
+    let Some((_, doctype)) = text.split_once("<!DOCTYPE") else {
+        return false;
+    };
+    let address = doctype.split(['[', '>']).next().unwrap_or("");
+    let mut entities = doctype.split("<!ENTITY").skip(1);
+    address.contains('<') || entities.any(|entity| entity.trim_start().starts_with('%'))
 }
 
 #[cfg(test)]
@@ -434,7 +483,8 @@ mod tests {
             tags: 6,
             attributes: 7,
             most_attributes: 2,
-            namespaces: 0,
+            declarations: 0,
+            prefixes: HashSet::new(),
             root_name_end: Some(39),
         };
         assert_eq!(
@@ -486,9 +536,44 @@ mod tests {
             Source::new(&format!("<svg{attributes}/>")).is_err(),
             "attributes of one element"
         );
+        let declared = |count: usize, prefixes: usize| {
+            let one = |i: usize| format!("<g xmlns:p{}=''/>", i % prefixes);
+            let groups: String = (0..count).map(one).collect();
+            Source::new(&format!("<svg>{groups}</svg>")).map(|_| ())
+        };
+        assert!(declared(MAX_PREFIXES + 1, MAX_PREFIXES + 1).is_err(), "prefixes");
+        assert!(declared(20_000, 100).is_err(), "declarations of many prefixes");
+        assert!(declared(20_000, 10).is_ok(), "as exporters write them");
+    }
+
+    #[test]
+    fn namespaces_count_where_they_are_declared() {
+        let found = |text: &str| {
+            let survey = Survey::new(text);
+            (survey.declarations, survey.prefixes.len())
+        };
+        assert_eq!(found("<svg xmlns = 'a' xmlns:b=\"c\"><g\nxmlns='a'/></svg>"), (3, 2));
+        assert_eq!(found("<g><g x=''xmlns='a'/></g>"), (1, 1), "without a blank");
+        for without in [
+            "<!-- <g xmlns='a'> -->",
+            "<g a=' xmlns='/>",
+            "<g> xmlns='a'</g>",
+            "<![CDATA[<g xmlns='a'/>]]>",
+            "<g xmlnsx='a' b:xmlns='c'/>",
+            "<?b <g xmlns='a'/> ?>",
+        ] {
+            assert_eq!(found(without), (0, 0), "{without}");
+        }
+        let hidden = "<!DOCTYPE svg [<!ENTITY % a \"<b '\">]><svg xmlns='a'/>";
+        assert!(is_misleading(hidden) && is_misleading("<!DOCTYPE a '<b \"'><svg/>"));
         assert!(
-            Source::new(&"<svg xmlns=''>".repeat(MAX_NAMESPACES + 1)).is_err(),
-            "namespaces"
+            !is_misleading("<!DOCTYPE svg [<!ENTITY a 'b'>]><svg/>"),
+            "as exporters write them"
+        );
+        assert_eq!(
+            found("<?b \" ?><g xmlns='a'/>"),
+            (1, 1),
+            "an instruction's quotes are its own"
         );
     }
 }

@@ -142,6 +142,21 @@ fn long_styles_end_soon() {
 }
 
 #[test]
+fn declarations_of_namespaces_may_be_repeated() {
+    let nested = "<svg xmlns='http://www.w3.org/2000/svg' width='8' height='8'><rect width='8' height='8'/></svg>";
+    assert_eq!(outcome("nested documents", &nested.repeat(5_000)), "", "drawn");
+    let comment = "<!-- xmlns='a' --><rect width='8' height='8'/>";
+    assert_eq!(outcome("comments", &comment.repeat(300)), "", "they declare nothing");
+    let declared = |count: usize| {
+        let one = |i: usize| format!(" xmlns:p{i}='a'");
+        (0..count).map(one).collect::<Vec<_>>().concat()
+    };
+    assert!(outcome("prefixes", &format!("<g{}/>", declared(300))).contains("more than 256 prefixes of namespaces"));
+    let each = format!("<g{}>{}</g>", declared(150), "<g xmlns='a'/>".repeat(20_000));
+    assert!(outcome("many of both", &each).contains("namespace declarations with so many prefixes"));
+}
+
+#[test]
 fn references_in_circles_end() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {

@@ -62,9 +62,17 @@ pub enum Problem {
         /// Its height in user units.
         height: f64,
     },
-    /// A number that is not one, or beyond the range of 32-bit floats.
+    /// A word for what is no number, or none with an end.
     #[error("{attribute}=\"{}\" holds a number that is not finite; use numbers up to 3.4e38", quote(.value))]
     NotFinite {
+        /// The attribute's name.
+        attribute: String,
+        /// All of its value.
+        value: String,
+    },
+    /// A number beyond the range of 32-bit floats.
+    #[error("{attribute}=\"{}\" holds a number that is too large; use numbers from -3.4e38 to 3.4e38", quote(.value))]
+    TooLarge {
         /// The attribute's name.
         attribute: String,
         /// All of its value.

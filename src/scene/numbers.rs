@@ -5,14 +5,17 @@ use super::Problem;
 /// The number at the start of `text` after blanks, as a 32-bit float; `None` if there is none.
 ///
 /// # Errors
-/// [`Problem::NotFinite`] for `nan`, `inf` and what is too large for 32 bits.
+/// [`Problem::NotFinite`] for `nan` and `inf`, [`Problem::TooLarge`] for what is too large for 32 bits.
 pub(super) fn leading(attribute: &str, text: &str) -> Result<Option<f32>, Problem> {
     let start = text.trim_start();
     let number = &start[..length(start.as_bytes())];
-    if number.is_empty() && !says_not_finite(start.as_bytes()) {
+    if number.is_empty() {
+        if says_not_finite(start.as_bytes()) {
+            return Err(not_finite(attribute, text));
+        }
         return Ok(None);
     }
-    finite(number).map(Some).ok_or_else(|| not_finite(attribute, text))
+    finite(number).map(Some).ok_or_else(|| too_large(attribute, text))
 }
 
 /// All numbers in `text`, separated by anything.
@@ -27,7 +30,7 @@ pub(super) fn all(attribute: &str, text: &str) -> Result<Vec<f32>, Problem> {
         let length = length(&bytes[at..]);
         if length > 0 {
             let number = text.get(at..at + length).and_then(finite);
-            numbers.push(number.ok_or_else(|| not_finite(attribute, text))?);
+            numbers.push(number.ok_or_else(|| too_large(attribute, text))?);
             at += length;
         } else if says_not_finite(&bytes[at..]) {
             return Err(not_finite(attribute, text));
@@ -41,6 +44,13 @@ pub(super) fn all(attribute: &str, text: &str) -> Result<Vec<f32>, Problem> {
 
 fn not_finite(attribute: &str, value: &str) -> Problem {
     Problem::NotFinite {
+        attribute: attribute.to_owned(),
+        value: value.to_owned(),
+    }
+}
+
+fn too_large(attribute: &str, value: &str) -> Problem {
+    Problem::TooLarge {
         attribute: attribute.to_owned(),
         value: value.to_owned(),
     }
@@ -121,6 +131,11 @@ mod tests {
         for text in ["nan", "-inf", "INFINITY", "1e400", "1e39", "-9e99px"] {
             assert!(leading("a", text).is_err(), "{text}");
             assert!(all("a", text).is_err(), "{text}");
+        }
+        for (text, word) in [("-1e300", "too large"), ("1e400", "too large"), ("-inf", "not finite")] {
+            let told =
+                [leading("a", text).err(), all("a", text).err()].map(|problem| problem.expect("refused").to_string());
+            assert!(told.iter().all(|line| line.contains(word)), "{text}: {told:?}");
         }
         assert_eq!(leading("a", "1e30").expect("finite"), Some(1e30), "large is legal");
     }

@@ -377,11 +377,7 @@ fn sources<'a>(scene: &'a Scene, view: &ViewTransform, settings: &RenderSettings
     PaintSources {
         textures: scene.textures.iter().map(AsRef::as_ref).collect(),
         gradients: scene.gradients.iter().map(placed).collect(),
-        patterns: scene
-            .patterns
-            .iter()
-            .map(|pattern| tiles::placed(pattern, view, settings))
-            .collect(),
+        patterns: tiles::placed(&scene.patterns, view, settings),
     }
 }
 

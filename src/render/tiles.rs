@@ -10,43 +10,91 @@ use crate::color::Rgba;
 use crate::geometry::ViewTransform;
 use crate::raster::{Framebuffer, PixelCoverage, PlacedPattern, ResolveFilter, SampleRate};
 use crate::scene::Pattern;
-use crate::texture::Tile;
+use crate::texture::{Tile, TileBudget};
 
-/// Largest side of a tile in texels; one that is shown larger is stretched.
-const MAX_SIDE: f64 = 4096.0;
 /// Texels of a tile that has one for each sample, at most: 32 MB. Larger ones have one for each pixel.
 const MOST_TEXELS: f64 = 4_194_304.0;
 /// Least side of a tile whose texels show one sample each: of fewer the colour of the whole would depend on where they lie.
 const LEAST_SIDE: f64 = 8.0;
 
-/// A pattern as it lies in a view.
-pub(super) fn placed(pattern: &Pattern, view: &ViewTransform, settings: &RenderSettings) -> PlacedPattern {
+/// Patterns as they lie in a view.
+pub(super) fn placed(patterns: &[Pattern], view: &ViewTransform, settings: &RenderSettings) -> Vec<PlacedPattern> {
     // Areas are those of what a tile fills; the tile itself is read in the middle of a pixel.
     let settings = &RenderSettings {
         coverage: PixelCoverage::Sampled,
         ..settings.in_effect()
     };
-    let to_pixels = view.scene_to_pixels * pattern.to_user * DAffine2::from_scale(pattern.tile.canvas);
-    PlacedPattern {
-        tile: pattern_tile(pattern, to_pixels, settings),
-        from_pixels: to_pixels.inverse(),
-        opacity: pattern.opacity,
-    }
+    let to_pixels = |pattern: &Pattern| {
+        let unit_to_user = pattern.to_user * DAffine2::from_scale(pattern.tile.canvas);
+        view.scene_to_pixels * unit_to_user
+    };
+    let sides = patterns.iter().map(|pattern| {
+        let matrix = to_pixels(pattern).matrix2;
+        DVec2::new(matrix.x_axis.length(), matrix.y_axis.length())
+    });
+    let sizes = sizes(&sides.collect::<Vec<_>>(), settings.sample_rate);
+    let place = |(pattern, size): (&Pattern, Size)| {
+        let from_pixels = to_pixels(pattern).inverse();
+        let is_flat = !from_pixels.is_finite() || !size.texels.is_finite();
+        PlacedPattern {
+            tile: if is_flat { None } else { tile(pattern, size, settings) },
+            from_pixels,
+            opacity: pattern.opacity,
+        }
+    };
+    patterns.iter().zip(sizes).map(place).collect()
 }
 
-/// The tile, whose sides go to `to_pixels`; `None` where it is flat or lies beyond all numbers.
-fn pattern_tile(pattern: &Pattern, to_pixels: DAffine2, settings: &RenderSettings) -> Option<Arc<Tile>> {
-    let matrix = to_pixels.matrix2;
-    let sides = DVec2::new(matrix.x_axis.length(), matrix.y_axis.length());
-    if !to_pixels.inverse().is_finite() || !sides.is_finite() {
-        return None;
-    }
-    let samples = sides * f64::from(settings.sample_rate.side());
-    let is_small = samples.max_element() <= MAX_SIDE && samples.element_product() <= MOST_TEXELS;
-    let size = if is_small { samples } else { sides };
-    let size = size.ceil().clamp(DVec2::ONE, DVec2::splat(MAX_SIDE));
+/// How large a tile is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Size {
+    /// Width and height.
+    texels: DVec2,
+    /// Whether there is a texel for each sample, and not one for a pixel or more.
+    of_samples: bool,
+}
+
+/// How large tiles are drawn whose sides have these lengths in pixels: where their samples together have no room, by their
+/// pixels, and where those have none, by a part of them.
+fn sizes(sides: &[DVec2], sample_rate: SampleRate) -> Vec<Size> {
+    let of_samples = |sides: &DVec2| {
+        let samples = *sides * f64::from(sample_rate.side());
+        let is_small = samples.max_element() <= TileBudget::MAX_SIDE && samples.element_product() <= MOST_TEXELS;
+        Size {
+            texels: if is_small { samples } else { *sides },
+            of_samples: is_small,
+        }
+    };
+    let fine: Vec<Size> = sides.iter().map(of_samples).collect();
+    let have_room = TileBudget::wanted(fine.iter().map(|size| size.texels)) <= TileBudget::TEXELS;
+    let part = TileBudget::part(TileBudget::wanted(sides.iter().copied()));
+    let coarse = sides.iter().map(|sides| Size {
+        texels: sides.min(DVec2::splat(TileBudget::MAX_SIDE)) * part,
+        of_samples: false,
+    });
+    let sizes = if have_room { fine } else { coarse.collect() };
+    let whole = |Size { texels, of_samples }: Size| Size {
+        texels: if texels.is_finite() {
+            texels.ceil().clamp(DVec2::ONE, DVec2::splat(TileBudget::MAX_SIDE))
+        } else {
+            texels
+        },
+        of_samples,
+    };
+    sizes.into_iter().map(whole).collect()
+}
+
+/// The tile in this size; `None` where nothing is drawn.
+fn tile(
+    pattern: &Pattern,
+    Size {
+        texels: size,
+        of_samples,
+    }: Size,
+    settings: &RenderSettings,
+) -> Option<Arc<Tile>> {
     // One sample is enough for a texel that is one; not where the tile has hardly any, and not for one that is a pixel.
-    let sample_rate = if is_small && samples.min_element() >= LEAST_SIDE {
+    let sample_rate = if of_samples && size.min_element() >= LEAST_SIDE {
         SampleRate::ONE
     } else {
         settings.sample_rate
@@ -68,11 +116,13 @@ fn pattern_tile(pattern: &Pattern, to_pixels: DAffine2, settings: &RenderSetting
         };
         let mut frame = Framebuffer::new(width, height);
         draw(&pattern.tile, &view, &settings, &mut frame);
+        // What lies in a tile is not asked for again, but for another size of it.
+        pattern.tile.patterns.iter().for_each(|inside| inside.drawn.clear());
         Tile::new([width, height], frame.pixels())
     })
 }
 
-/// A side in texels, at most [`MAX_SIDE`].
+/// A side in texels, at most [`TileBudget::MAX_SIDE`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -80,4 +130,37 @@ fn pattern_tile(pattern: &Pattern, to_pixels: DAffine2, settings: &RenderSetting
 )]
 fn whole(side: f64) -> u32 {
     side as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_have_their_samples_their_pixels_or_what_room_there_is() {
+        let sizes = |count: usize, side: f64, rate| sizes(&vec![DVec2::splat(side); count], rate);
+        let rate = SampleRate::new(16).expect("a rate");
+        for (count, side, expected, of_samples) in [
+            (1, 99.5, 398.0, true),
+            (1, 2000.5, 2001.0, false),
+            (4, 9000.0, 4096.0, false),
+            (1, 0.1, 1.0, true),
+            // One for each sample would be 77 million.
+            (30, 400.0, 400.0, false),
+        ] {
+            let expected = Size {
+                texels: DVec2::splat(expected),
+                of_samples,
+            };
+            let found = sizes(count, side, rate);
+            assert!(
+                found.iter().all(|size| *size == expected),
+                "{count} of {side}: {found:?}"
+            );
+        }
+        let many = sizes(300, 1000.0, SampleRate::ONE);
+        let together: f64 = many.iter().map(|size| size.texels.element_product()).sum();
+        assert!(together < TileBudget::TEXELS * 1.01, "{together}");
+        assert!(!sizes(1, f64::INFINITY, rate)[0].texels.is_finite(), "it is not drawn");
+    }
 }

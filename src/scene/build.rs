@@ -11,6 +11,7 @@ use roxmltree::Node;
 use super::document::{LineIndex, Source};
 use super::error::Fault;
 use super::textures::TextureTable;
+use super::tiles;
 use super::{
     Composite, Dialect, Fill, Gradient, Paint, Pattern, Primitive, PrimitiveKind, Problem, Progress, Report, Scene,
     SceneFiles, Shape, ShapeId, SkippedKind, SourceLocation,
@@ -356,6 +357,11 @@ impl<'doc> Builder<'doc> {
             document: None,
             textures: self.textures.digests(),
         };
+        if let Some((shape, message)) = tiles::too_large(&self.patterns)
+            && let Some(shape) = self.shapes.get(shape.0 as usize)
+        {
+            self.report.warn(shape.location, message);
+        }
         let textures = self.textures.load(&mut self.report);
         if !textures.is_empty() {
             hand_down(&mut self.patterns, &textures);

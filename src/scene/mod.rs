@@ -26,6 +26,7 @@ mod resources;
 mod substitutes;
 mod svg;
 mod textures;
+mod tiles;
 mod triangles;
 mod words;
 

@@ -75,7 +75,7 @@ pub use pyramid_filter::PyramidFilter;
 pub use ripmap::Ripmap;
 pub use settings::SamplingSettings;
 pub use summed_area::{BoxRead, SummedAreaTable};
-pub use tile::{Tile, TileCache, TileRead};
+pub use tile::{Tile, TileBudget, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 pub use wrap::Wrap;

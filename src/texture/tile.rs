@@ -19,6 +19,28 @@ use crate::color::Premultiplied16;
 /// Sizes of a tile that are kept: the picture's, and those of thumbnails beside it.
 const KEPT: usize = 4;
 
+/// Room for the tiles of all patterns that a view shows together: those of many large ones are coarser.
+#[derive(Clone, Copy, Debug)]
+pub struct TileBudget;
+
+impl TileBudget {
+    /// Largest side of a tile in texels; one that is shown larger is stretched.
+    pub const MAX_SIDE: f64 = 4096.0;
+    /// Texels of all tiles of a view: 512 MB.
+    pub const TEXELS: f64 = 67_108_864.0;
+
+    /// How many texels tiles with these sides have together.
+    pub fn wanted(sides: impl IntoIterator<Item = DVec2>) -> f64 {
+        let texels = |sides: DVec2| sides.min(DVec2::splat(Self::MAX_SIDE)).element_product();
+        sides.into_iter().filter(|sides| sides.is_finite()).map(texels).sum()
+    }
+
+    /// Which part of their sides tiles with so many texels together can have.
+    pub fn part(wanted: f64) -> f64 {
+        (Self::TEXELS / wanted).sqrt().min(1.0)
+    }
+}
+
 /// A picture that is repeated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
@@ -210,6 +232,13 @@ impl TileCache {
     }
 }
 
+impl TileCache {
+    /// Forgets the tiles.
+    pub fn clear(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+}
+
 impl Clone for TileCache {
     /// An empty one.
     fn clone(&self) -> Self {
@@ -261,6 +290,21 @@ mod tests {
     }
 
     #[test]
+    fn few_tiles_have_their_texels_and_many_share_the_room() {
+        let part = |count: usize, side: f64| {
+            TileBudget::part(TileBudget::wanted(std::iter::repeat_n(DVec2::splat(side), count)))
+        };
+        for (count, side) in [(0, 0.0), (4, 4096.0), (4, 1e9), (67, 1000.0), (10_000, 80.0)] {
+            assert!((part(count, side) - 1.0).abs() < f64::EPSILON, "{count} of {side}");
+        }
+        for (count, side) in [(16, 4096.0), (300, 1000.0), (100_000, 50.0)] {
+            let coarser = part(count, side) * side;
+            let together = TileBudget::wanted(std::iter::repeat_n(DVec2::splat(coarser), count));
+            assert!(together <= TileBudget::TEXELS * 1.001, "{count} of {side}: {together}");
+        }
+    }
+
+    #[test]
     fn a_cache_draws_each_size_once() {
         let cache = TileCache::default();
         let mut drawn = 0;
@@ -271,6 +315,12 @@ mod tests {
             });
         }
         assert_eq!(drawn, 1);
+        cache.clear();
+        cache.get("8x8", || {
+            drawn += 1;
+            Some(tile())
+        });
+        assert_eq!(drawn, 2, "it was forgotten");
         assert_eq!(cache.get("9x9", || None), None, "nothing to keep");
     }
 }

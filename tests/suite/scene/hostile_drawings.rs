@@ -157,6 +157,28 @@ fn declarations_of_namespaces_may_be_repeated() {
 }
 
 #[test]
+fn large_tiles_are_told_where_they_have_no_room_together() {
+    let told = |count: usize| {
+        let one = |i: usize| {
+            format!(
+                "<pattern id='p{i}' width='1000' height='1000' patternUnits='userSpaceOnUse'><rect width='900' height='900'/></pattern>\
+                 <rect width='9' height='9' fill='url(#p{i})'/>"
+            )
+        };
+        let body: String = (0..count).map(one).collect();
+        let document = svg("width='100' height='100'", &body);
+        let scene = try_read(document.as_bytes(), DialectChoice::Svg).expect("a document");
+        format!("{:?}", scene.report.warnings)
+    };
+    assert_eq!(told(60), "[]", "60 million texels");
+    assert!(
+        told(100).contains("100 patterns have 100 million pixels together"),
+        "{}",
+        told(100)
+    );
+}
+
+#[test]
 fn references_in_circles_end() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {

@@ -187,11 +187,11 @@ fn is_of_interest(declaration: &Declaration<'_>) -> bool {
     important || matches!(name, "transform" | "filter") || is_length()
 }
 
-/// Whether a declaration of a rule has a value without meaning; colours are told where they stand.
+/// Whether a declaration of a rule has a value without meaning; colours and dashes are told where they stand.
 fn is_in_vain(declaration: &Declaration<'_>) -> bool {
     let Declaration { name, value, .. } = *declaration;
     match name {
-        "fill" | "stroke" | "color" | "stop-color" => false,
+        "fill" | "stroke" | "color" | "stop-color" | "stroke-dasharray" => false,
         "transform" => transforms::plain(value).is_none(),
         _ => values::is_without_effect(name, value) || !values::is_understood(name, value),
     }

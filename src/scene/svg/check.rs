@@ -8,6 +8,7 @@ use super::cascade::Styled;
 use super::listener::Listener;
 use super::{nonsense, values};
 use crate::scene::error::Fault;
+use crate::scene::report::quote;
 use crate::scene::{SkippedKind, numbers};
 
 /// Attributes that hold coordinates and lengths.
@@ -134,6 +135,11 @@ fn finite<L: Listener>(listener: &L, node: Node<'_, '_>, name: &str, value: &str
     Ok(())
 }
 
+/// Whether an element is drawn as far as its outline is understood.
+fn is_outline(node: Node<'_, '_>) -> bool {
+    matches!(node.tag_name().name(), "path" | "polyline" | "polygon")
+}
+
 fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value: &str) {
     if values::is_without_effect(name, value) {
         listener.skip(SkippedKind::Attribute, name, node);
@@ -144,6 +150,9 @@ fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value
     }
     let message = if name == "points" && values::is_odd(value) {
         "points holds an odd number of coordinates; the last has no effect".to_owned()
+    } else if let Some((count, what)) = values::drawn_up_to(name, value).filter(|_| is_outline(node)) {
+        let value = quote(value);
+        format!("{name}=\"{value}\" is not understood after {count} {what}; it is drawn up to there")
     } else {
         nonsense::without_effect(name, value)
     };

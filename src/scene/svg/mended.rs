@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::cascade::{Styled, is_missing};
 use super::elements::Elements;
-use super::values;
+use super::{nonsense, values};
 use crate::scene::edits::Edits;
 use crate::scene::numbers;
 
@@ -20,7 +20,10 @@ pub(super) fn trim_numbers(text: &str, node: Node<'_, '_>, styled: &Styled<'_>, 
         let range = attribute.range_value();
         let raw = text.get(range.clone()).unwrap_or("");
         // A path's data may have it, and is changed elsewhere.
-        if raw.starts_with(SPACE) | raw.ends_with(SPACE) && name != "d" && values::is_numeric(name) {
+        let is_framed = raw.starts_with(SPACE) | raw.ends_with(SPACE);
+        let is_kept =
+            || name != "d" && values::is_numeric(name) && !nonsense::is_nonsense(name, raw.trim_matches(SPACE));
+        if is_framed && is_kept() {
             edits.replace(range, raw.trim_matches(SPACE).to_owned());
         }
     }

@@ -1,5 +1,5 @@
-//! Colours that nobody understands. By CSS they have no effect, and what an attribute, another rule or the element around says
-//! counts; usvg takes black. So their names are changed in the text that usvg reads. Selectors that simplecss passes over are
+//! Colours and dashes that nobody understands. By CSS they have no effect, and what an attribute, another rule or the element around says
+//! counts; usvg takes black, or the dashes before what it does not understand. So their names are changed in the text that usvg reads. Selectors that simplecss passes over are
 //! told.
 
 use roxmltree::{Attribute, Node};
@@ -13,10 +13,10 @@ use crate::scene::substitutes::block_end;
 /// Put before the name of a declaration to make it one of nothing.
 pub(super) const UNREAD: &str = "unread-";
 
-/// Properties that are colours.
-const PAINTS: [&str; 4] = ["fill", "stroke", "color", "stop-color"];
+/// Properties of which usvg makes something else where it does not understand them.
+const MISTAKEN: [&str; 5] = ["fill", "stroke", "color", "stop-color", "stroke-dasharray"];
 
-/// Takes such colours that `node` has, as attributes or in its style, out of `text`.
+/// Takes such values that `node` has, as attributes or in its style, out of `text`.
 pub(super) fn hide(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
         if is_nonsense(attribute.name(), attribute.value().trim()) {
@@ -43,7 +43,7 @@ fn in_style(text: &str, attribute: Attribute<'_, '_>) -> Vec<usize> {
     }
 }
 
-/// Where in `text` the names stand that a style sheet gives such colours to, and what is to be said of them.
+/// Where in `text` the names stand that a style sheet gives such values to, and what is to be said of them.
 pub(super) fn names_in_sheet(text: &str, sheet: Node<'_, '_>) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     for part in sheet.children().filter(Node::is_text) {
@@ -187,8 +187,9 @@ fn is_in_vain(declaration: &Declaration<'_>) -> bool {
     is_nonsense(declaration.name, declaration.value)
 }
 
-fn is_nonsense(name: &str, value: &str) -> bool {
-    PAINTS.contains(&name) && !values::is_understood(name, value)
+/// Whether a property has such a value.
+pub(super) fn is_nonsense(name: &str, value: &str) -> bool {
+    MISTAKEN.contains(&name) && !values::is_understood(name, value)
 }
 
 /// How far `part` is from the start of the text that it is of.

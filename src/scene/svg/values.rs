@@ -1,7 +1,7 @@
 //! Which values of attributes and properties have a meaning, by SVG's grammar.
 
 use glam::{DAffine2, DMat2, DVec2};
-use svgtypes::{Length, NumberListParser, Paint, TransformListParser, TransformListToken};
+use svgtypes::{Length, NumberListParser, Paint, PathParser, PointsParser, TransformListParser, TransformListToken};
 
 /// What kind of value belongs to a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,8 +164,18 @@ pub(super) fn is_understood(name: &str, value: &str) -> bool {
         Kind::ViewBox => value.parse::<svgtypes::ViewBox>().is_ok(),
         Kind::Aspect => value.parse::<svgtypes::AspectRatio>().is_ok(),
         Kind::Words(words) => words.is_empty() || words.contains(&value),
-        Kind::Path => true,
+        Kind::Path => PathParser::from(value).all(|segment| segment.is_ok()),
     }
+}
+
+/// Up to where an outline is drawn that is understood in part: so many points of a polygon, or segments of a path.
+pub(super) fn drawn_up_to(name: &str, value: &str) -> Option<(usize, &'static str)> {
+    let (count, what) = match name {
+        "points" => (PointsParser::from(value).count(), "points"),
+        "d" => (PathParser::from(value).take_while(Result::is_ok).count(), "segments"),
+        _ => return None,
+    };
+    (count > 1).then_some((count, what))
 }
 
 /// Whether these are numbers, and one too many.

@@ -490,7 +490,7 @@ fn svg_nonsense_is_ignored_with_a_warning() {
         ),
         (
             "<polygon points='0,0 1,0 1,1 x,y'/>",
-            "points=\"0,0 1,0 1,1 x,y\" is not understood and has no effect",
+            "points=\"0,0 1,0 1,1 x,y\" is not understood after 3 points; it is drawn up to there",
         ),
         ("<image width='1' height='1'/>", "not drawn: it has no href"),
         (
@@ -514,6 +514,40 @@ fn svg_nonsense_is_ignored_with_a_warning() {
         let lines = lines(&scene);
         assert_eq!(lines.len(), 1, "{body}: {lines:?}");
         assert!(lines[0].ends_with(warning), "{body}: {lines:?}");
+    }
+}
+
+#[test]
+fn svg_outlines_are_drawn_as_far_as_they_are_understood() {
+    for (body, warning) in [
+        (
+            "<polygon points='x,y 1,0'/>",
+            "points=\"x,y 1,0\" is not understood and has no effect",
+        ),
+        (
+            "<path d='M0 0L5 0L5 5X L0 5'/>",
+            "d=\"M0 0L5 0L5 5X L0 5\" is not understood after 3 segments; it is drawn up to there",
+        ),
+        (
+            "<path d='M0 0h9' stroke='red' stroke-dasharray=' 2 foo '/>",
+            "stroke-dasharray=\"2 foo\" is not understood and has no effect",
+        ),
+        (
+            "<style>path { stroke-dasharray: 2 foo }</style><path d='M0 0h9' stroke='red'/>",
+            "stroke-dasharray=\"2 foo\" is not understood and has no effect",
+        ),
+    ] {
+        let told = lines(&svg_scene(body));
+        assert!(told.len() == 1 && told[0].ends_with(warning), "{body}: {told:?}");
+    }
+    let solid = kinds(&svg_scene("<path d='M0 0h9' stroke='red'/>"));
+    for dashes in [
+        "stroke-dasharray='2 foo'",
+        "style='stroke-dasharray:2 foo'",
+        "stroke-dasharray=' foo\n'",
+    ] {
+        let dashed = svg_scene(&format!("<path d='M0 0h9' stroke='red' {dashes}/>"));
+        assert_eq!(kinds(&dashed), solid, "{dashes}");
     }
 }
 

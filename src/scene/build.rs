@@ -32,9 +32,13 @@ pub(super) const BEFORE_SHAPES: f64 = 0.4;
 /// that; and how much coarser at most. A view has finer ones made for what it shows.
 const MANY_AREAS: f64 = 60_000.0;
 const COARSEST: f64 = 1.0 / 64.0;
-/// What is said where there would be more.
+/// What is said where there would be more; and where it is letters that have them.
 const TOO_MANY_POINTS: Problem = Problem::TooMany {
-    what: "points of polygons",
+    what: "points of outlines",
+    limit: MAX_POINTS,
+};
+const TOO_MANY_LETTERS: Problem = Problem::TooMany {
+    what: "points of outlines, of which each letter of a text has some 50",
     limit: MAX_POINTS,
 };
 /// Most layers inside each other, those of clips and masks included: each takes memory in every tile.
@@ -384,6 +388,10 @@ impl<'doc> Builder<'doc> {
     }
 
     fn fault(&self, shape: ShapeId, problem: Problem) -> Fault {
+        let problem = match problem {
+            Problem::TooMany { limit: MAX_POINTS, .. } if self.element(shape) == "text" => TOO_MANY_LETTERS,
+            problem => problem,
+        };
         match self.shapes.get(shape.0 as usize) {
             Some(shape) => problem.at(shape.location),
             None => problem.nowhere(),

@@ -51,9 +51,6 @@ pub use fonts::{Fonts, more_fonts, set_fonts};
 /// Stack for documents that are as deep as they may be: usvg and what follows it recurse. Only what is used is taken.
 const STACK: usize = 256 << 20;
 
-/// Most elements that usvg reads, those that a `use` repeats counted again.
-const MAX_ELEMENTS: usize = 600_000;
-
 /// Samples along the longer side of the canvas for which the edges of curves are fine enough from the start.
 const FINE_FOR: f64 = 4096.0;
 
@@ -121,7 +118,7 @@ fn explain(error: &usvg::Error, builder: &Builder<'_>, root: Node<'_, '_>) -> Fa
         usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => {
             let too_many = Problem::TooMany {
                 what: "elements, with those that are used again",
-                limit: MAX_ELEMENTS,
+                limit: prepare::MAX_ELEMENTS,
             };
             // usvg follows a circle until it has had enough.
             match references::circle_of_uses(root) {

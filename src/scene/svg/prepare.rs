@@ -14,6 +14,9 @@ use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
 
+/// Most elements that usvg reads, those that a `use` repeats counted again.
+pub(super) const MAX_ELEMENTS: usize = 1_000_000;
+
 /// Elements inside each other, at most: each takes usvg's stack.
 const MAX_DEPTH: usize = 1_000;
 
@@ -84,6 +87,8 @@ struct Preparation<'a, 'doc, L> {
     images: Vec<Node<'doc, 'doc>>,
     letters: Option<Node<'doc, 'doc>>,
     cascade: Cascade<'doc>,
+    /// How many elements usvg will have to read, at least.
+    read: usize,
     listener: &'a mut L,
 }
 
@@ -101,6 +106,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         images: Vec::new(),
         letters: None,
         cascade: Cascade::below(root),
+        read: 0,
         listener,
     };
     if let Some(message) = mended::style_elsewhere(root) {
@@ -205,8 +211,13 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         .filter(|open| open.node.has_children()))
     }
 
-    /// Refuses what takes usvg time that grows with the square of its length.
+    /// Refuses more elements than usvg reads, and what takes it time that grows with the square of its length.
     fn count(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
+        self.read += usize::from(!matches!(node.tag_name().name(), "style" | "texture"));
+        if self.read > MAX_ELEMENTS {
+            let (what, limit) = ("elements", MAX_ELEMENTS);
+            return Err(self.listener.fault(Problem::TooMany { what, limit }, node, ""));
+        }
         let (what, limit, count) = match node.tag_name().name() {
             "text" => {
                 let length = |node: Node<'_, '_>| {
@@ -216,7 +227,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
                         node.text().map_or(0, str::len)
                     }
                 };
-                ("characters in one text", MAX_TEXT, node.descendants().map(length).sum())
+                let what = "characters in one text, where each element inside counts as 8";
+                (what, MAX_TEXT, node.descendants().map(length).sum())
             }
             "linearGradient" | "radialGradient" => ("stops of one gradient", MAX_STOPS, node.children().count()),
             _ => return Ok(()),

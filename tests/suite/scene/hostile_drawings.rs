@@ -179,6 +179,12 @@ fn large_tiles_are_told_where_they_have_no_room_together() {
 }
 
 #[test]
+fn long_texts_and_many_letters_are_told_as_what_they_are() {
+    let spans = format!("<text y='50'>{}</text>", "<tspan>x</tspan>".repeat(3_000));
+    assert!(outcome("spans", &spans).contains("each element inside counts as 8"));
+}
+
+#[test]
 fn references_in_circles_end() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {

@@ -4,6 +4,7 @@
 //! Of important declarations the last counts, as of all others (CSS Cascading 4, section 6.1); to usvg it is the first. So the
 //! words `!important` go, and what wins by them stands at the end of the element's own style, which wins over all.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::ops::Range;
 
@@ -19,7 +20,9 @@ use crate::scene::edits::Edits;
 const FAR: f64 = 1e7;
 
 /// Which properties say how long and where a shape is (SVG 2, section 7.9).
-const GEOMETRY: [(&str, &[&str]); 4] = [
+const GEOMETRY: [(&str, &[&str]); 6] = [
+    ("svg", &["x", "y", "width", "height"]),
+    ("use", &["x", "y", "width", "height"]),
     ("rect", &["x", "y", "width", "height", "rx", "ry"]),
     ("circle", &["cx", "cy", "r"]),
     ("ellipse", &["cx", "cy", "rx", "ry"]),
@@ -40,7 +43,7 @@ pub(super) struct Styled<'doc> {
     /// Names and values, which win over all others.
     style: Vec<(&'doc str, String)>,
     /// Lengths of the shape.
-    geometry: Vec<(&'static str, &'doc str)>,
+    geometry: Vec<(&'static str, Cow<'doc, str>)>,
     /// The transform, as attributes have it.
     pub(super) transform: Option<String>,
     /// What of the rules it has no effect.
@@ -113,7 +116,8 @@ impl<'doc> Styled<'doc> {
             return;
         }
         if let Some(own) = lengths_of(node).iter().find(|own| **own == name) {
-            self.geometry.extend(is_taken(value).then_some((*own, value)));
+            self.geometry
+                .extend(is_taken(value).then_some((*own, Cow::Borrowed(value))));
         } else if important {
             self.style.push((name, value.to_owned()));
         }
@@ -122,6 +126,23 @@ impl<'doc> Styled<'doc> {
     /// Whether a length of the shape is taken from its styles.
     pub(super) fn has_length(&self, name: &str) -> bool {
         self.geometry.iter().any(|(own, _)| *own == name)
+    }
+
+    /// What counts for a length of `node`: what its styles say, or its attribute.
+    pub(super) fn length(&self, node: Node<'doc, 'doc>, name: &str) -> Option<&str> {
+        let own = self.geometry.iter().find(|(own, _)| *own == name);
+        own.map(|(_, value)| value.as_ref()).or_else(|| node.attribute(name))
+    }
+
+    /// Has `value` for a length, whatever the document says.
+    pub(super) fn set_length(&mut self, name: &'static str, value: String) {
+        self.geometry.retain(|(own, _)| *own != name);
+        self.geometry.push((name, Cow::Owned(value)));
+    }
+
+    /// Has the element not drawn, with all that is inside.
+    pub(super) fn hide(&mut self) {
+        self.style.push(("display", "none".to_owned()));
     }
 
     /// Writes it into `text`, in which the name in the element's tag ends at `name_end`.
@@ -174,8 +195,11 @@ fn marks(text: &str, part: Range<usize>) -> Vec<Range<usize>> {
     marks.collect()
 }
 
-/// The lengths that styles may give a shape.
+/// The lengths that styles may give a shape; those of the root are the page's, which no picture has around it.
 fn lengths_of(node: Node<'_, '_>) -> &'static [&'static str] {
+    if node.parent_element().is_none() {
+        return &[];
+    }
     let shape = GEOMETRY.iter().find(|(shape, _)| *shape == node.tag_name().name());
     shape.map_or(&[], |(_, lengths)| lengths)
 }

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use super::cascade::Styled;
 use super::listener::Listener;
-use super::{nonsense, values};
+use super::{nonsense, values, viewports};
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
 use crate::scene::{SkippedKind, numbers};
@@ -18,8 +18,8 @@ const LENGTHS: [&str; 14] = [
 
 /// Lengths of shapes that SVG 2 reads in styles, too, and usvg as attributes only.
 const GEOMETRY: [&str; 9] = ["x", "y", "width", "height", "rx", "ry", "cx", "cy", "r"];
-/// The shapes that have such.
-const SHAPES: [&str; 4] = ["rect", "circle", "ellipse", "image"];
+/// The elements that have such; of a root they are the page's.
+const SHAPES: [&str; 6] = ["rect", "circle", "ellipse", "image", "use", "svg"];
 
 /// What is seen at an element.
 #[derive(Clone, Copy, Debug)]
@@ -108,6 +108,7 @@ fn is_dashed(node: Node<'_, '_>) -> bool {
 fn is_geometry_in_vain(node: Node<'_, '_>, declaration: &simplecss::Declaration<'_>) -> bool {
     let plain = |value: &str| value.trim().trim_end_matches("px").to_owned();
     SHAPES.contains(&node.tag_name().name())
+        && node.parent_element().is_some()
         && GEOMETRY.contains(&declaration.name)
         && declaration.value != "auto"
         && node.attribute(declaration.name).map(plain) != Some(plain(declaration.value))
@@ -150,6 +151,8 @@ fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value
     }
     let message = if name == "points" && values::is_odd(value) {
         "points holds an odd number of coordinates; the last has no effect".to_owned()
+    } else if name == "viewBox" && viewports::is_without_area(value) {
+        viewports::without_area(node, value)
     } else if let Some((count, what)) = values::drawn_up_to(name, value).filter(|_| is_outline(node)) {
         let value = quote(value);
         format!("{name}=\"{value}\" is not understood after {count} {what}; it is drawn up to there")

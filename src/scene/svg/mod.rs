@@ -31,6 +31,7 @@ mod sheets;
 mod styles;
 mod transforms;
 mod values;
+mod viewports;
 
 use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};

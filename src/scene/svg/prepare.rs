@@ -9,7 +9,7 @@ use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
 use super::values::{self, WHITENS};
-use super::{cascade, mended, nonsense, sheets, styles};
+use super::{cascade, mended, nonsense, sheets, styles, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
@@ -136,17 +136,30 @@ pub(super) fn prepare<'doc, L: Listener>(
 struct Open<'doc> {
     node: Node<'doc, 'doc>,
     next: Option<Node<'doc, 'doc>>,
+    within: Within,
+}
+
+/// What an element lies in.
+#[derive(Clone, Copy)]
+struct Within {
     /// All transforms so far.
     to_root: DAffine2,
     /// Whether what is inside may be seen, so that its absence is worth a word.
     heard: bool,
+    /// Width and height of what percentages are of, where the document tells them.
+    viewport: Option<DVec2>,
 }
 
 impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     /// Walks the tree without recursion, so that no nesting is too deep.
     fn tree(&mut self, root: Node<'doc, 'doc>) -> Result<(), Fault> {
         let mut open: Vec<Open<'doc>> = Vec::new();
-        open.extend(self.element(root, DAffine2::IDENTITY, true)?);
+        let nothing = Within {
+            to_root: DAffine2::IDENTITY,
+            heard: true,
+            viewport: None,
+        };
+        open.extend(self.element(root, nothing)?);
         while let Some(container) = open.last_mut() {
             let Some(node) = container.next else {
                 open.pop();
@@ -156,19 +169,20 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             if !node.is_element() || attributes::is_silent(node) {
                 continue;
             }
-            let (to_root, heard) = (container.to_root, container.heard);
+            let within = container.within;
             if open.len() >= MAX_DEPTH {
                 let what = "elements inside each other";
                 let problem = Problem::TooMany { what, limit: MAX_DEPTH };
                 return Err(self.listener.fault(problem, node, ""));
             }
-            open.extend(self.element(node, to_root, heard)?);
+            open.extend(self.element(node, within)?);
         }
         Ok(())
     }
 
     /// Looks at an element, and opens it unless nobody sees what is inside.
-    fn element(&mut self, node: Node<'doc, 'doc>, to_root: DAffine2, heard: bool) -> Result<Option<Open<'doc>>, Fault> {
+    fn element(&mut self, node: Node<'doc, 'doc>, around: Within) -> Result<Option<Open<'doc>>, Fault> {
+        let Within { heard, viewport, .. } = around;
         let name = node.tag_name().name();
         let is_effect = name.starts_with("fe")
             && node
@@ -181,13 +195,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             return Ok(None);
         }
         let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
-        let styled = self.cascade.styled(node, &self.elements);
+        let mut styled = self.cascade.styled(node, &self.elements);
         let look = check::look(self.listener, node, &styled, is_told)?;
-        let to_root = to_root * look.to_parent;
+        viewports::resolve(node, &mut styled, &self.elements, viewport);
+        let to_root = around.to_root * look.to_parent;
         if !is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
         }
-        let heard = heard && look.displayed;
+        let heard = heard && look.displayed && !viewports::hides(node);
         self.count(node)?;
         self.identify(node);
         self.pixelate(node);
@@ -205,8 +220,11 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         Ok(Some(Open {
             node,
             next: node.first_child(),
-            to_root,
-            heard,
+            within: Within {
+                to_root,
+                heard,
+                viewport: viewports::inside(node, &styled, viewport),
+            },
         })
         .filter(|open| open.node.has_children()))
     }

@@ -8,3 +8,4 @@ mod hostile_drawings;
 mod promised;
 mod svg;
 mod triangulation;
+mod viewports;

@@ -1,10 +1,13 @@
-//! Typefaces for text: those of the system, those that the user names, and two that are always there.
+//! Typefaces for text: those of the system, those that the user names, and two that are always there. Which families a name
+//! stands for is said in `families`.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use usvg::fontdb::{Database, Family, ID, Query, Source, Stretch, Style, Weight};
-use usvg::{Font, FontFamily, FontResolver, FontStretch, FontStyle};
+use usvg::{Font, FontResolver, FontStretch, FontStyle};
+
+use super::families::{self, Asked, Kind};
 
 /// Where typefaces come from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,7 +61,6 @@ fn gathered(fonts: &Fonts) -> Database {
     if fonts.system {
         database.load_system_fonts();
     }
-    generic(&mut database);
     database
 }
 
@@ -70,42 +72,6 @@ fn add(database: &mut Database, path: &std::path::Path) {
         let _ = database.load_font_file(path);
     }
 }
-
-/// Points generic families to typefaces that are there.
-fn generic(database: &mut Database) {
-    const SANS: &str = "Ubuntu";
-    const MONO: &str = "Hack";
-    let families = [
-        Family::Serif,
-        Family::SansSerif,
-        Family::Cursive,
-        Family::Fantasy,
-        Family::Monospace,
-    ];
-    for family in families
-        .into_iter()
-        .filter(|family| !is_there(database, family))
-        .collect::<Vec<_>>()
-    {
-        match family {
-            Family::SansSerif => database.set_sans_serif_family(SANS),
-            Family::Cursive => database.set_cursive_family(SANS),
-            Family::Fantasy => database.set_fantasy_family(SANS),
-            Family::Monospace => database.set_monospace_family(MONO),
-            Family::Serif | Family::Name(_) => database.set_serif_family(SANS),
-        }
-    }
-}
-
-fn is_there(database: &Database, family: &Family<'_>) -> bool {
-    let name = database.family_name(family);
-    database
-        .faces()
-        .any(|face| face.families.iter().any(|(known, _)| known == name))
-}
-
-/// What text is set in that asks for nothing: usvg takes this for the name of a family.
-pub(super) const UNNAMED: &str = "serif";
 
 /// What a document asks for and the machine has not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -147,31 +113,15 @@ impl Missing {
     }
 }
 
-/// Chooses typefaces as usvg does, and tells of the families, faces and characters that are missing.
+/// Chooses typefaces, and tells of the families, faces and characters that are missing.
 pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Clone + Send + Sync + 'a) -> FontResolver<'a> {
     let (fallback, tell_of_character) = (FontResolver::default_fallback_selector(), tell.clone());
+    let more = more_fonts();
     FontResolver {
         select_font: Box::new(move |font, database| {
-            let found = font
-                .families()
-                .iter()
-                .find_map(|family| query(database, font, &theirs(family)));
-            let found = found.or_else(|| query(database, font, &Family::Serif));
-            let named = |family: &&FontFamily| matches!(family, FontFamily::Named(_));
-            let is_there = |family: &&FontFamily| query(database, font, &theirs(family)).is_some();
-            // What stands behind one that is there is not asked for.
-            let missing = font.families().iter().take_while(|family| !is_there(family));
-            for family in missing.filter(named) {
-                tell(Missing::Family(
-                    family.to_string().trim_matches('"').to_owned(),
-                    found.and_then(|id| name(database, id)),
-                ));
-            }
-            for kind in found.iter().flat_map(|id| lacking(database, font, *id)) {
-                tell(Missing::Face(
-                    kind,
-                    found.and_then(|id| name(database, id)).unwrap_or_default(),
-                ));
+            let (found, missing) = chosen(database, &Wanted::by(font), &more);
+            for missing in missing {
+                tell(missing);
             }
             found
         }),
@@ -185,44 +135,95 @@ pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Clone + Send + Sync + 'a) ->
     }
 }
 
-/// What a document asks of a face that this one is not.
-fn lacking(database: &Database, font: &Font, id: ID) -> impl Iterator<Item = &'static str> + use<> {
-    let is_bold = |weight: u16| weight >= Weight::SEMIBOLD.0;
-    let face = database.face(id);
-    let bold = face.is_some_and(|face| is_bold(font.weight()) && !is_bold(face.weight.0));
-    let italic = face.is_some_and(|face| font.style() != FontStyle::Normal && face.style == Style::Normal);
-    [bold.then_some("bold"), italic.then_some("italic")]
+/// What a text wants to be set in.
+#[derive(Clone, Debug)]
+struct Wanted<'a> {
+    families: Vec<Asked<'a>>,
+    weight: Weight,
+    stretch: Stretch,
+    style: Style,
+}
+
+impl<'a> Wanted<'a> {
+    fn by(font: &'a Font) -> Self {
+        Self {
+            families: font.families().iter().map(Asked::by).collect(),
+            weight: Weight(font.weight()),
+            stretch: stretch(font.stretch()),
+            style: match font.style() {
+                FontStyle::Normal => Style::Normal,
+                FontStyle::Italic => Style::Italic,
+                FontStyle::Oblique => Style::Oblique,
+            },
+        }
+    }
+
+    /// The face of a family that fits best.
+    fn face(&self, database: &Database, family: &str) -> Option<ID> {
+        database.query(&Query {
+            families: &[Family::Name(family)],
+            weight: self.weight,
+            stretch: self.stretch,
+            style: self.style,
+        })
+    }
+
+    /// The first face of a kind that has all that is wanted, or else the first; none where only the shipped ones are left.
+    fn face_of_kind(&self, database: &Database, kind: Kind, more: &[PathBuf]) -> Option<ID> {
+        let there = families::of_kind(database, kind, more).into_iter();
+        let faces: Vec<ID> = there.filter_map(|family| self.face(database, family)).collect();
+        let whole = faces.iter().find(|id| self.lacking(database, **id).next().is_none());
+        whole.or(faces.first()).copied()
+    }
+
+    /// What is asked of a face that this one is not.
+    fn lacking(&self, database: &Database, id: ID) -> impl Iterator<Item = &'static str> + use<> {
+        let is_bold = |weight: Weight| weight >= Weight::SEMIBOLD;
+        let face = database.face(id);
+        let bold = face.is_some_and(|face| is_bold(self.weight) && !is_bold(face.weight));
+        let italic = face.is_some_and(|face| self.style != Style::Normal && face.style == Style::Normal);
+        [bold.then_some("bold"), italic.then_some("italic")]
+            .into_iter()
+            .flatten()
+    }
+}
+
+/// The face that is taken, and what of the wanted is missing; `more` are the files and folders that the user named.
+fn chosen(database: &Database, wanted: &Wanted<'_>, more: &[PathBuf]) -> (Option<ID>, Vec<Missing>) {
+    let asked = &wanted.families;
+    let mut unmet: Vec<&str> = Vec::new();
+    let found = asked.iter().find_map(|asked| match asked {
+        Asked::Named(name) => {
+            let there = families::spelled(database, name);
+            // What stands behind one that is there is not asked for.
+            unmet.extend(there.is_none().then_some(name));
+            wanted.face(database, there.or_else(|| families::instead(database, name))?)
+        }
+        Asked::Kind(kind) => {
+            let found = wanted.face_of_kind(database, *kind, more);
+            let (shipped, is_of_kind) = families::shipped(*kind);
+            let is_there = found.is_some() || is_of_kind;
+            unmet.extend((!is_there).then(|| kind.name()));
+            found.or_else(|| wanted.face(database, shipped))
+        }
+        Asked::Nothing => None,
+    });
+    let found = found.or_else(|| {
+        let kind = asked.iter().find_map(|asked| asked.kind()).unwrap_or(Kind::Serif);
+        let found = wanted.face_of_kind(database, kind, more);
+        found.or_else(|| wanted.face(database, families::shipped(kind).0))
+    });
+    let taken = found.and_then(|id| name(database, id));
+    let families = unmet
         .into_iter()
-        .flatten()
+        .map(|family| Missing::Family(family.to_owned(), taken.clone()));
+    let faces = found.iter().flat_map(|id| wanted.lacking(database, *id));
+    let faces = faces.map(|kind| Missing::Face(kind, taken.clone().unwrap_or_default()));
+    (found, families.chain(faces).collect())
 }
 
 fn name(database: &Database, id: ID) -> Option<String> {
     database.face(id)?.families.first().map(|(name, _)| name.clone())
-}
-
-fn theirs(family: &FontFamily) -> Family<'_> {
-    match family {
-        FontFamily::Serif => Family::Serif,
-        FontFamily::SansSerif => Family::SansSerif,
-        FontFamily::Cursive => Family::Cursive,
-        FontFamily::Fantasy => Family::Fantasy,
-        FontFamily::Monospace => Family::Monospace,
-        FontFamily::Named(name) if name == UNNAMED => Family::Serif,
-        FontFamily::Named(name) => Family::Name(name),
-    }
-}
-
-fn query(database: &Database, font: &Font, family: &Family<'_>) -> Option<ID> {
-    database.query(&Query {
-        families: std::slice::from_ref(family),
-        weight: Weight(font.weight()),
-        stretch: stretch(font.stretch()),
-        style: match font.style() {
-            FontStyle::Normal => Style::Normal,
-            FontStyle::Italic => Style::Italic,
-            FontStyle::Oblique => Style::Oblique,
-        },
-    })
 }
 
 fn stretch(stretch: FontStretch) -> Stretch {
@@ -236,5 +237,133 @@ fn stretch(stretch: FontStretch) -> Stretch {
         FontStretch::Expanded => Stretch::Expanded,
         FontStretch::ExtraExpanded => Stretch::ExtraExpanded,
         FontStretch::UltraExpanded => Stretch::UltraExpanded,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use usvg::FontFamily;
+    use usvg::fontdb::{FaceInfo, Language};
+
+    use super::*;
+
+    /// A machine with these faces and the shipped ones; those in `/more/` were named by the user.
+    fn machine(faces: &[(&str, &str)]) -> Database {
+        let mut database = gathered(&Fonts::default());
+        for (path, family) in faces {
+            let (family, is_bold) = match family.strip_suffix(" bold") {
+                Some(family) => (family, true),
+                None => (*family, false),
+            };
+            database.push_face_info(FaceInfo {
+                id: ID::dummy(),
+                source: Source::File(PathBuf::from(path).join("a.ttf")),
+                index: 0,
+                families: vec![(family.to_owned(), Language::English_UnitedStates)],
+                post_script_name: String::new(),
+                style: Style::Normal,
+                weight: if is_bold { Weight::BOLD } else { Weight::NORMAL },
+                stretch: Stretch::Normal,
+                monospaced: false,
+            });
+        }
+        database
+    }
+
+    /// The family that is taken, whether its face is bold, and what is told.
+    fn set(database: &Database, families: &[FontFamily], weight: u16) -> (String, bool, Vec<String>) {
+        let wanted = Wanted {
+            families: families.iter().map(Asked::by).collect(),
+            weight: Weight(weight),
+            stretch: Stretch::Normal,
+            style: Style::Normal,
+        };
+        let (found, missing) = chosen(database, &wanted, &[PathBuf::from("/more")]);
+        let found = found.and_then(|id| database.face(id)).expect("there is always one");
+        let told = missing.iter().filter_map(Missing::message).collect();
+        (found.families[0].0.clone(), found.weight == Weight::BOLD, told)
+    }
+
+    fn named(name: &str) -> FontFamily {
+        FontFamily::Named(name.to_owned())
+    }
+
+    #[track_caller]
+    fn assert_set(database: &Database, family: FontFamily, expected: &str) {
+        let (taken, _, told) = set(database, &[family], 400);
+        assert_eq!((taken.as_str(), told), (expected, Vec::new()));
+    }
+
+    #[test]
+    fn generic_families_are_those_that_the_machine_has() {
+        let system = machine(&[
+            ("/usr", "DejaVu Sans"),
+            ("/usr", "Noto Serif"),
+            ("/usr", "DejaVu Serif"),
+            ("/usr", "DejaVu Sans Mono"),
+        ]);
+        assert_set(&system, FontFamily::Serif, "DejaVu Serif");
+        assert_set(&system, named(families::UNNAMED), "DejaVu Serif");
+        assert_set(&system, named("SANS-serif"), "DejaVu Sans");
+        assert_set(&system, named("ui-monospace"), "DejaVu Sans Mono");
+        let given = machine(&[
+            ("/usr", "DejaVu Sans"),
+            ("/usr", "DejaVu Serif"),
+            ("/more", "Noto Serif"),
+            ("/more", "Mine"),
+        ]);
+        assert_set(&given, FontFamily::Serif, "Noto Serif");
+        assert_set(&given, FontFamily::SansSerif, "DejaVu Sans");
+        assert_set(&machine(&[("/more", "Mine")]), FontFamily::SansSerif, "Mine");
+        assert_set(&machine(&[]), FontFamily::SansSerif, "Ubuntu");
+        assert_set(&machine(&[]), FontFamily::Monospace, "Hack");
+        assert_set(&machine(&[]), named(families::UNNAMED), "Ubuntu");
+        let (taken, _, told) = set(&machine(&[]), &[FontFamily::Serif], 400);
+        assert_eq!(taken, "Ubuntu");
+        assert_eq!(
+            told,
+            ["there is no typeface serif; Ubuntu is taken instead (--font adds more)"]
+        );
+    }
+
+    #[test]
+    fn a_bold_face_of_the_kind_is_taken_where_there_is_one() {
+        let faces = [
+            ("/usr", "DejaVu Sans"),
+            ("/usr", "Noto Sans"),
+            ("/usr", "Noto Sans bold"),
+        ];
+        let (taken, is_bold, told) = set(&machine(&faces), &[FontFamily::SansSerif], 700);
+        assert_eq!((taken.as_str(), is_bold, told.len()), ("Noto Sans", true, 0));
+        let (taken, _, told) = set(&machine(&faces[..1]), &[FontFamily::SansSerif], 700);
+        assert!(taken == "DejaVu Sans" && told.len() == 1, "{taken}, {told:?}");
+        let cured = machine(&[("/more", "Mine bold")]);
+        let (taken, is_bold, told) = set(&cured, &[FontFamily::SansSerif], 700);
+        assert_eq!(
+            (taken.as_str(), is_bold, told.len()),
+            ("Mine", true, 0),
+            "what is told is true"
+        );
+    }
+
+    #[test]
+    fn families_have_their_names_in_any_case_and_common_ones_stand_for_each_other() {
+        let system = machine(&[("/usr", "DejaVu Sans"), ("/usr", "Nimbus Sans"), ("/usr", "Tinos")]);
+        assert_set(&system, named("dejavu sans"), "DejaVu Sans");
+        let (taken, _, told) = set(&system, &[named("arial"), named("DejaVu Sans")], 400);
+        assert_eq!(taken, "Nimbus Sans");
+        assert_eq!(
+            told,
+            ["there is no typeface arial; Nimbus Sans is taken instead (--font adds more)"]
+        );
+        assert_eq!(set(&system, &[named("Times")], 400).0, "Tinos");
+        let (taken, _, told) = set(
+            &system,
+            &[named("No Such"), named("Courier"), named("DejaVu Sans")],
+            400,
+        );
+        assert!(taken == "DejaVu Sans" && told.len() == 2, "{taken}: {told:?}");
+        let (taken, _, told) = set(&system, &[named("Courier")], 400);
+        assert!(taken == "Hack" && told.len() == 1, "of its kind: {taken}: {told:?}");
     }
 }

@@ -14,6 +14,7 @@ mod check;
 mod circles;
 mod clip;
 mod elements;
+mod families;
 mod fonts;
 mod guarded;
 mod listener;

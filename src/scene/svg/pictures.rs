@@ -11,6 +11,7 @@ use roxmltree::Node;
 use usvg::fontdb::Database;
 use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 
+use super::families;
 use super::fonts::{self, Missing};
 use super::listener::Listener;
 use super::{guarded, prepare, references};
@@ -94,7 +95,7 @@ pub(super) fn options<'o, 'doc>(
     load: impl Fn(&str) -> Option<ImageKind> + Send + Sync + 'o,
 ) -> Options<'o> {
     Options {
-        font_family: fonts::UNNAMED.to_owned(),
+        font_family: families::UNNAMED.to_owned(),
         fontdb: fonts.unwrap_or_default(),
         font_resolver: fonts::resolver(|missing| {
             let found = &mut lock(loading).missing;

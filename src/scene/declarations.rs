@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use simplecss::DeclarationTokenizer;
 
+use super::css_colors;
 use super::edits::Edits;
 use super::substitutes::{Markup, block_end};
 
@@ -122,6 +123,14 @@ fn mend(text: &str, block: Range<usize>, edits: &mut Edits) {
         // What entities stand for is not known here.
         if is_plain(named) || named.contains('&') || is_read(named) {
             is_first = false;
+            lower_name(text, piece.start, declaration, edits);
+            continue;
+        }
+        let closed = unclosed_color(declaration).filter(|_| piece.end == block.end);
+        if let Some((range, color)) = closed {
+            is_first = false;
+            lower_name(text, piece.start, declaration, edits);
+            edits.replace(moved(range, piece.start), color);
             continue;
         }
         let without = line_height(declaration).map(|height| moved(height, piece.start));
@@ -132,6 +141,34 @@ fn mend(text: &str, block: Range<usize>, edits: &mut Edits) {
             blank(text, piece, edits);
         }
     }
+}
+
+/// Writes the name of a declaration at `start` in small letters, which mean the same (CSS Syntax 3, section 1).
+fn lower_name(text: &str, start: usize, declaration: &str, edits: &mut Edits) {
+    let name = declaration.split_once(':').map_or("", |(name, _)| name);
+    let range = start..start + name.len();
+    let is_name = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte.is_ascii_whitespace();
+    if name.bytes().all(is_name) && name.contains(|c: char| c.is_ascii_uppercase()) {
+        edits.replace(range.clone(), text[range].to_ascii_lowercase());
+    }
+}
+
+/// A colour whose parenthesis the end of the style closes (CSS Syntax 3, section 5.4.9), where it stands, and how it is written
+/// in as many characters.
+fn unclosed_color(declaration: &str) -> Option<(Range<usize>, String)> {
+    let open = declaration
+        .rfind('(')
+        .filter(|open| !declaration[*open..].contains(')'))?;
+    let before = &declaration[..open];
+    let start = before
+        .rfind(|c: char| !c.is_ascii_alphanumeric())
+        .map_or(0, |at| at + 1);
+    let color = css_colors::shortest(&format!("{})", &declaration[start..]))?;
+    let range = start..declaration.len();
+    // Lines stay.
+    let range = Some(range).filter(|range| !declaration[range.clone()].contains('\n'))?;
+    let blanks = range.len().checked_sub(color.len())?;
+    Some((range, color + &" ".repeat(blanks)))
 }
 
 /// The declarations of a block, each with the semicolon that ends it.
@@ -272,6 +309,19 @@ mod tests {
             "<svg><style>text{font:40px / 2em 'A B', serif}</style></svg>",
             "<svg><style>text{font:40px 'A B', serif}</style></svg>",
         );
+    }
+
+    #[test]
+    fn names_are_small_and_colours_end_with_their_style() {
+        assert_becomes(
+            "<svg style='FILL:Red;Stroke : RED'/>",
+            "<svg style='fill:Red;stroke : RED'/>",
+        );
+        assert_becomes(
+            "<svg style='Fill:rgb(0,200,0'><style>a{x:1;fill:rgba(0, 0, 0, 0</style></svg>",
+            "<svg style='fill:#00c800 '><style>a{x:1;fill:#0000 </style></svg>",
+        );
+        assert_becomes("<svg style='a:1;fill:rgb(0,0;b:1'/>", "<svg style='a:1; '/>");
     }
 
     #[test]

@@ -57,13 +57,26 @@ const BLEND_MODES: [&str; 16] = [
 ];
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 6] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 18] = [
+    ("all", &[]),
     ("animation", &["none"]),
     ("animation-name", &["none"]),
+    ("clip", &["auto"]),
+    // As a property: the attribute holds no function.
+    ("d", &["none"]),
     ("direction", &["ltr"]),
     ("filter", &["none"]),
     ("font-variant", &["normal"]),
+    ("inline-size", &["auto", "0", "0px"]),
+    ("mask-image", &["none"]),
+    ("rotate", &["none", "0", "0deg"]),
+    ("scale", &["none", "1"]),
+    ("shape-inside", &["auto"]),
+    ("text-transform", &["none"]),
+    ("transform-box", &["view-box"]),
+    ("translate", &["none", "0", "0px"]),
     ("vector-effect", &["none", "non-scaling-stroke"]),
+    ("white-space", &["normal", "nowrap"]),
 ];
 
 fn kind(name: &str) -> Option<Kind> {
@@ -84,7 +97,7 @@ fn kind(name: &str) -> Option<Kind> {
         "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
         "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),
         "visibility" => Kind::Words(&["visible", "hidden", "collapse"]),
-        "filter" | "vector-effect" | "font-variant" | "direction" => Kind::Words(&[]),
+        "filter" | "vector-effect" | "font-variant" | "direction" | "clip" | "white-space" => Kind::Words(&[]),
         "mix-blend-mode" => Kind::Words(&BLEND_MODES),
         "shape-rendering" => Kind::Words(&["auto", "geometricPrecision", "crispEdges", "optimizeSpeed"]),
         "image-rendering" => Kind::Words(&[
@@ -112,9 +125,13 @@ pub(super) fn is_without_effect(name: &str, value: &str) -> bool {
     let Some((_, harmless)) = WITHOUT_EFFECT.iter().find(|(property, _)| *property == name) else {
         return false;
     };
+    if name == "d" && !value.starts_with("path(") {
+        return false;
+    }
     // Exporters of web pages write all that an animation could have, and no name.
     let is_named = name != "animation" || value.split_whitespace().all(|word| word != "none");
-    is_named && !harmless.contains(&value) && value != "inherit"
+    let is_harmless = harmless.contains(&value) || matches!(value, "inherit" | "initial");
+    is_named && (name == "all" || !is_harmless)
 }
 
 /// Whether it is known what values belong to the name.

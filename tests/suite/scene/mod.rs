@@ -6,6 +6,7 @@ mod drawings;
 mod gallery;
 mod hostile_drawings;
 mod promised;
+mod styles;
 mod svg;
 mod triangulation;
 mod viewports;

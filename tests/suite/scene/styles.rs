@@ -1,0 +1,80 @@
+//! Style sheets and styles in the dialect `svg`, and letters along paths.
+
+use rasterscope::color::Rgba;
+use rasterscope::scene::{DialectChoice, Fill, Paint, PrimitiveKind, Scene};
+
+use crate::support::documents::{area, kinds, lines, read, svg};
+
+const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
+const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
+
+fn svg_scene(body: &str) -> Scene {
+    read(&svg("width='100' height='100'", body), DialectChoice::Svg)
+}
+
+/// The colour of the first thing that is drawn.
+fn color(scene: &Scene) -> Rgba {
+    let color = kinds(scene).into_iter().find_map(|kind| match kind {
+        PrimitiveKind::Triangle {
+            paint: Paint::Solid(color),
+            ..
+        }
+        | PrimitiveKind::Polygon {
+            fill: Fill::Solid(color),
+            ..
+        } => Some(color),
+        _ => None,
+    });
+    color.expect("something is drawn")
+}
+
+/// The colour of a shape to which a sheet says this, and what is told.
+fn styled(sheet: &str) -> (Rgba, Vec<String>) {
+    let body = format!("<style{sheet}</style><rect class='an icon' id='r' width='9' height='9' fill='blue'/>");
+    let scene = svg_scene(&body);
+    (color(&scene), lines(&scene))
+}
+
+#[test]
+fn styles_are_read_as_css_writes_them() {
+    for style in ["FILL:red", "fill:rgb(255,0,0", "stroke:none;Fill : rgb(255, 0, 0"] {
+        let scene = svg_scene(&format!("<rect width='9' height='9' style='{style}'/>"));
+        assert_eq!(color(&scene), RED, "{style}");
+    }
+}
+
+#[test]
+fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
+    for style in [
+        "all:unset",
+        "clip:rect(0 0 0 0)",
+        "d:path(&quot;M0 0H9&quot;)",
+        "inline-size:50px",
+        "mask-image:url(#m)",
+        "rotate:45deg",
+        "scale:2",
+        "shape-inside:url(#s)",
+        "text-transform:uppercase",
+        "transform-box:fill-box",
+        "translate:5px",
+        "white-space:pre",
+    ] {
+        let name = style.split(':').next().unwrap();
+        let told = lines(&svg_scene(&format!("<path d='M0 0H9V9' style='{style}'/>")));
+        assert!(told.len() == 1 && told[0].contains(name), "{style}: {told:?}");
+        let told = lines(&svg_scene(&format!(
+            "<style>path{{{style}}}</style><path d='M0 0H9V9'/>"
+        )));
+        assert!(
+            told.len() == 1 && told[0].contains(name),
+            "{style} in a sheet: {told:?}"
+        );
+    }
+    for style in [
+        "clip:auto;d:none;rotate:none;scale:1",
+        "transform-box:view-box;white-space:normal",
+    ] {
+        let told = lines(&svg_scene(&format!("<path d='M0 0H9V9' style='{style}'/>")));
+        assert_eq!(told, [""; 0], "{style}");
+    }
+}

@@ -11,6 +11,7 @@ use roxmltree::{Document, Error, ParsingOptions};
 
 use super::declarations::mended;
 use super::error::Fault;
+use super::media::on_screen;
 use super::report::shorten;
 use super::substitutes::substituted;
 use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, entities};
@@ -193,6 +194,14 @@ pub(super) struct Source<'doc> {
 /// Put into the root element of documents that use `xlink:` and forget to say what it means, as many do.
 const XLINK: &str = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
 
+/// A text that is not the one it was made of.
+fn changed(text: Cow<'_, str>) -> Option<String> {
+    match text {
+        Cow::Owned(text) => Some(text),
+        Cow::Borrowed(_) => None,
+    }
+}
+
 impl<'doc> Source<'doc> {
     /// Looks at the text before the XML library does.
     pub(super) fn new(original: &'doc str) -> Result<Self, Fault> {
@@ -228,11 +237,10 @@ impl<'doc> Source<'doc> {
             }
             _ => (Cow::Borrowed(original), (0, 0)),
         };
-        let plain = mended(substituted(&text));
-        let text = match plain {
-            Cow::Owned(plain) => Cow::Owned(plain),
-            Cow::Borrowed(_) => text,
-        };
+        let shown = changed(on_screen(Cow::Borrowed(&text)));
+        let text = shown.map_or(text, Cow::Owned);
+        let plain = changed(mended(substituted(&text)));
+        let text = plain.map_or(text, Cow::Owned);
         Ok(Self {
             original,
             text,

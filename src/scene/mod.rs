@@ -17,6 +17,7 @@ mod edits;
 mod entities;
 mod error;
 mod location;
+mod media;
 mod model;
 mod numbers;
 mod progress;

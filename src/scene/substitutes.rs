@@ -202,6 +202,13 @@ impl Markup {
         found
     }
 
+    /// The start tag of a style sheet, without its last bracket.
+    pub(super) fn tag_of(&self, sheet: &Range<usize>) -> Option<Range<usize>> {
+        let end = sheet.start.checked_sub(1)?;
+        let at = self.tags.binary_search_by_key(&end, |tag| tag.end).ok()?;
+        self.tags.get(at).cloned()
+    }
+
     /// Notes a tag; which scope it begins, if it does.
     fn tag(&mut self, text: &str, range: Range<usize>) -> Option<usize> {
         let tag = &text[range.clone()];

@@ -7,6 +7,7 @@ use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
 use super::{sheets, values};
 use crate::scene::edits::Edits;
+use crate::scene::media;
 use crate::scene::report::quote;
 use crate::scene::substitutes::block_end;
 
@@ -114,11 +115,6 @@ pub(super) fn selectors_in_vain(css: &str) -> Vec<String> {
 
 /// Rules with an `@` that hold others, or fetch them.
 const AT_RULES: [&str; 6] = ["@import", "@media", "@supports", "@layer", "@scope", "@container"];
-/// What conditions ask for that a picture on a screen is not.
-const ELSEWHERE: [&str; 9] = [
-    "print", "speech", "dark", "reduce", "contrast", "forced", "hover", "pointer", "not ",
-];
-
 /// What is to be said of rules that hold others, all of which are passed over.
 pub(super) fn at_rules_in_vain(css: &str) -> Vec<String> {
     let css = without_comments(css);
@@ -127,11 +123,15 @@ pub(super) fn at_rules_in_vain(css: &str) -> Vec<String> {
         .filter_map(|(at, name)| {
             let head = css[at..].split(['{', ';']).next().unwrap_or("").trim();
             let is_whole = !head[name.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '-');
-            let is_meant = name != "@media" || !ELSEWHERE.into_iter().any(|word| head.contains(word));
+            // Those for a screen are plain rules, and those for other media are not meant.
+            let is_meant = name != "@media" || media::applies(&head[name.len()..]).is_none();
             (is_whole && is_meant).then(|| {
                 let head = quote(head);
                 match name {
                     "@import" => format!("\"{head}\" has no effect; other style sheets are not fetched"),
+                    "@media" => format!(
+                        "the rules inside \"{head}\" have no effect; whether such conditions hold is not looked at"
+                    ),
                     _ => format!("the rules inside \"{head}\" have no effect; take them out of it"),
                 }
             })
@@ -221,10 +221,10 @@ mod tests {
         let told = at_rules_in_vain(css);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
-            told[0].contains("\"@import url(a.css)\"") && told[1].contains("\"@media screen\""),
+            told[0].contains("\"@import url(a.css)\"") && told[1].contains("\"@media (prefers-color-scheme: dark)\""),
             "{told:?}"
         );
-        assert!(at_rules_in_vain("@important @media").len() == 1, "only whole words");
+        assert!(at_rules_in_vain("@important @layer").len() == 1, "only whole words");
     }
 
     #[test]

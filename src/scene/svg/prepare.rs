@@ -12,7 +12,8 @@ use super::values::{self, WHITENS};
 use super::{cascade, mended, nonsense, sheets, styles, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
-use crate::scene::{Problem, SkippedKind, attributes, numbers};
+use crate::scene::report::quote;
+use crate::scene::{Problem, SkippedKind, attributes, media, numbers};
 
 /// Most elements that usvg reads, those that a `use` repeats counted again.
 pub(super) const MAX_ELEMENTS: usize = 1_000_000;
@@ -309,6 +310,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             for at in cuts {
                 self.edits.insert(at, between.clone());
             }
+            self.other_media(node);
             let css: String = node.children().filter_map(|part| part.text()).collect();
             let at_rules = nonsense::at_rules_in_vain(&css).into_iter();
             for message in at_rules.chain(nonsense::selectors_in_vain(&css)) {
@@ -318,6 +320,18 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
                 self.edits.insert(at, nonsense::UNREAD.to_owned());
                 self.listener.warn(node, message);
             }
+        }
+    }
+
+    /// Tells of a sheet that is left out because of a condition.
+    fn other_media(&mut self, sheet: Node<'doc, 'doc>) {
+        let media = sheet.attribute("media");
+        if let Some(list) = media.filter(|list| media::applies(list).is_none()) {
+            let message = format!(
+                "has no effect: whether media=\"{}\" holds is not looked at",
+                quote(list)
+            );
+            self.listener.warn(sheet, message);
         }
     }
 

@@ -36,6 +36,23 @@ fn styled(sheet: &str) -> (Rgba, Vec<String>) {
 }
 
 #[test]
+fn rules_for_screens_hold_and_those_for_paper_do_not() {
+    for (sheet, expected, told) in [
+        (" media='print'>rect{fill:red}", BLUE, 0),
+        (" media='print, screen'>rect{fill:red}", RED, 0),
+        (" media='(min-width: 5px)'>rect{fill:red}", BLUE, 1),
+        (">@media screen, print{rect{fill:red}}", RED, 0),
+        (">@media not print{rect{fill:red}}", RED, 0),
+        (">@media only screen { rect{fill:red}}", RED, 0),
+        (">@media print{rect{fill:red}}", BLUE, 0),
+        (">@media (prefers-color-scheme: light){rect{fill:red}}", BLUE, 1),
+    ] {
+        let (color, lines) = styled(sheet);
+        assert_eq!((color, lines.len()), (expected, told), "{sheet}: {lines:?}");
+    }
+}
+
+#[test]
 fn styles_are_read_as_css_writes_them() {
     for style in ["FILL:red", "fill:rgb(255,0,0", "stroke:none;Fill : rgb(255, 0, 0"] {
         let scene = svg_scene(&format!("<rect width='9' height='9' style='{style}'/>"));

@@ -13,6 +13,7 @@ use super::declarations::mended;
 use super::error::Fault;
 use super::media::on_screen;
 use super::report::shorten;
+use super::selectors::rewritten;
 use super::substitutes::substituted;
 use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, entities};
 
@@ -239,7 +240,7 @@ impl<'doc> Source<'doc> {
         };
         let shown = changed(on_screen(Cow::Borrowed(&text)));
         let text = shown.map_or(text, Cow::Owned);
-        let plain = changed(mended(substituted(&text)));
+        let plain = changed(rewritten(mended(substituted(&text))));
         let text = plain.map_or(text, Cow::Owned);
         Ok(Self {
             original,

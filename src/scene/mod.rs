@@ -24,6 +24,7 @@ mod progress;
 mod quotes;
 mod report;
 mod resources;
+mod selectors;
 mod substitutes;
 mod svg;
 mod textures;

@@ -18,6 +18,7 @@ mod families;
 mod fonts;
 mod guarded;
 mod listener;
+mod marked;
 mod mended;
 mod nonsense;
 mod paint;

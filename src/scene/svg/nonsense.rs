@@ -9,6 +9,7 @@ use super::{sheets, values};
 use crate::scene::edits::Edits;
 use crate::scene::media;
 use crate::scene::report::quote;
+use crate::scene::selectors::written;
 use crate::scene::substitutes::block_end;
 
 /// Put before the name of a declaration to make it one of nothing.
@@ -73,8 +74,7 @@ pub(super) fn names_in_sheet(text: &str, sheet: Node<'_, '_>) -> Vec<(usize, Str
 }
 
 /// What select elements of a drawing that does not change, and are passed over with their rules.
-const SELECTORS: [&str; 15] = [
-    "root",
+const SELECTORS: [&str; 14] = [
     "not",
     "is",
     "where",
@@ -152,6 +152,12 @@ fn unread_selector(selectors: &str) -> Option<String> {
             _ => {}
         }
         let rest = &selectors[at + sign.len_utf8()..];
+        if let Some(part) = ["^=", "$=", "*="]
+            .into_iter()
+            .find(|part| selectors[at..].starts_with(part))
+        {
+            return Some(part);
+        }
         match sign {
             '~' if depth == 0 => Some("~"),
             '\\' if depth == 0 => Some("\\"),
@@ -165,7 +171,7 @@ fn unread_selector(selectors: &str) -> Option<String> {
     })?;
     Some(format!(
         "the selector \"{}\" is not understood ({sign}); its rule has no effect",
-        quote(selectors.trim())
+        quote(written(selectors).trim())
     ))
 }
 

@@ -8,6 +8,7 @@ use super::cascade::Cascade;
 use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
+use super::marked::Marks;
 use super::values::{self, WHITENS};
 use super::{cascade, mended, nonsense, sheets, styles, viewports};
 use crate::scene::edits::Edits;
@@ -90,6 +91,7 @@ struct Preparation<'a, 'doc, L> {
     cascade: Cascade<'doc>,
     /// How many elements usvg will have to read, at least.
     read: usize,
+    marks: Marks<'a>,
     listener: &'a mut L,
 }
 
@@ -100,14 +102,17 @@ pub(super) fn prepare<'doc, L: Listener>(
     listener: &mut L,
 ) -> Result<Prepared<'doc>, Fault> {
     styles::bounded(root, text, listener)?;
+    let mut edits = Edits::default();
+    let marks = Marks::of(text, &mut edits);
     let mut preparation = Preparation {
         text,
-        edits: Edits::default(),
+        edits,
         elements: Elements::below(root),
         images: Vec::new(),
         letters: None,
         cascade: Cascade::below(root),
         read: 0,
+        marks,
         listener,
     };
     if let Some(message) = mended::style_elsewhere(root) {
@@ -206,6 +211,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let heard = heard && look.displayed && !viewports::hides(node);
         self.count(node)?;
         self.identify(node);
+        self.marks.put(node, self.name_end(node), &mut self.edits);
         self.pixelate(node);
         self.hide_nonsense(node);
         styled.write(self.text, node, self.name_end(node), &mut self.edits);

@@ -7,7 +7,7 @@ use roxmltree::{Node, NodeId};
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
 use super::listener::Listener;
-use super::sheets;
+use super::{marked, sheets};
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
@@ -269,7 +269,7 @@ impl simplecss::Element for Counted<'_, '_> {
 
     fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
         self.step();
-        self.node.attribute(name).is_some_and(|value| operator.matches(value))
+        marked::attribute_matches(self.node, name, operator)
     }
 
     fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {

@@ -36,6 +36,34 @@ fn styled(sheet: &str) -> (Rgba, Vec<String>) {
 }
 
 #[test]
+fn selectors_look_at_parts_of_attributes() {
+    for (selector, expected) in [
+        ("[class^='an i']", RED),
+        ("[class$=icon]", RED),
+        ("rect[class*=\"n i\"]", RED),
+        ("svg > [id^=r][id$=r]", RED),
+        ("[class^=icon]", BLUE),
+        ("[class$='']", BLUE),
+        ("[class*=Icon]", BLUE),
+    ] {
+        let (color, told) = styled(&format!(">{selector}{{fill:red}} rect{{fill:blue}}"));
+        assert_eq!((color, told), (expected, Vec::new()), "{selector}");
+    }
+    let (color, told) = styled(">[class ^= 'an'] { fill: red }");
+    assert!(color == BLUE && told.len() == 1 && told[0].contains("(^=)"), "{told:?}");
+}
+
+#[test]
+fn the_root_is_selected_by_its_name_or_place() {
+    let scene = svg_scene("<style>:root{fill:red} :root > g{stroke:none}</style><g><rect width='9' height='9'/></g>");
+    assert_eq!((color(&scene), lines(&scene)), (RED, Vec::new()));
+    // Its weight is that of a class.
+    let scene =
+        svg_scene("<style>:root{fill:red} svg{fill:blue} g g:root{fill:lime}</style><rect width='9' height='9'/>");
+    assert_eq!(color(&scene), RED);
+}
+
+#[test]
 fn rules_for_screens_hold_and_those_for_paper_do_not() {
     for (sheet, expected, told) in [
         (" media='print'>rect{fill:red}", BLUE, 0),

@@ -60,6 +60,11 @@ impl<'doc> Elements<'doc> {
         format!("{}picture{number}", self.prefix)
     }
 
+    /// The id of an outline that we put into the text.
+    pub(super) fn outline(&self, number: usize) -> String {
+        format!("{}outline{number}", self.prefix)
+    }
+
     /// The number in an address of ours.
     pub(super) fn number(&self, address: &str) -> Option<usize> {
         let rest = address.strip_prefix(&self.prefix)?;

@@ -31,6 +31,7 @@ mod server;
 mod shapes;
 mod sheets;
 mod styles;
+mod text_paths;
 mod transforms;
 mod values;
 mod viewports;

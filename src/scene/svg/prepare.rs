@@ -10,7 +10,7 @@ use super::elements::Elements;
 use super::listener::Listener;
 use super::marked::Marks;
 use super::values::{self, WHITENS};
-use super::{cascade, mended, nonsense, sheets, styles, viewports};
+use super::{cascade, mended, nonsense, sheets, styles, text_paths, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
@@ -200,6 +200,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             }
             return Ok(None);
         }
+        if let Some(why) = text_paths::in_vain(node, &self.elements).filter(|_| name == "textPath") {
+            if heard {
+                self.listener.warn(node, why.to_owned());
+            }
+            // What follows stands where it would without this.
+            self.edits.replace(node.range(), String::new());
+            return Ok(None);
+        }
         let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
         let mut styled = self.cascade.styled(node, &self.elements);
         let look = check::look(self.listener, node, &styled, is_told)?;
@@ -221,6 +229,10 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             "image" => self.image(node, heard),
             "colortri" | "textri" => self.triangle(node)?,
             "use" if heard => self.used(node),
+            "textPath" => {
+                let id = self.elements.outline(node.id().get_usize());
+                text_paths::move_own(self.text, node, (&id, self.name_end(node)), &mut self.edits);
+            }
             "text" if self.letters.is_none() => self.letters = Some(node),
             _ => {}
         }

@@ -92,7 +92,7 @@ fn kind(name: &str) -> Option<Kind> {
         "points" => Kind::Points,
         "viewBox" => Kind::ViewBox,
         "preserveAspectRatio" => Kind::Aspect,
-        "d" => Kind::Path,
+        "d" | "path" => Kind::Path,
         "stroke-linecap" => Kind::Words(&["butt", "round", "square"]),
         "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
         "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),

@@ -123,3 +123,36 @@ fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
         assert_eq!(told, [""; 0], "{style}");
     }
 }
+
+#[test]
+fn letters_along_paths_are_drawn_or_missed() {
+    let text = |path: &str| {
+        svg_scene(&format!(
+            "<path id='p' d='M0 50h90' fill='none'/><g id='g'/><text y='30'>{path}</text>"
+        ))
+    };
+    let after = area(&text("after"));
+    for (path, why) in [
+        ("<textPath href='#nope'>abc</textPath>", "no element has the id"),
+        ("<textPath href='#g'><tspan>abc</tspan></textPath>", "no outline"),
+        ("<textPath href='a.svg#p'>abc</textPath>", "other documents"),
+        ("<textPath path='none'>abc</textPath>", "no href"),
+    ] {
+        let scene = text(&format!("{path}after"));
+        let told = lines(&scene);
+        assert!(told.len() == 1 && told[0].contains(why), "{path}: {told:?}");
+        assert!(
+            after > 10.0 && (area(&scene) - after).abs() < 1e-6,
+            "{path}: what follows is drawn"
+        );
+    }
+    let referred = area(&text("<textPath href='#p'>abc</textPath>"));
+    for path in [
+        "<textPath path='M0 50h90'>abc</textPath>",
+        "<textPath href='#g' path='M0 50h90'>abc</textPath>",
+    ] {
+        let scene = text(path);
+        assert_eq!(lines(&scene), [""; 0], "{path}");
+        assert!(referred > 10.0 && (area(&scene) - referred).abs() < 1e-6, "{path}");
+    }
+}

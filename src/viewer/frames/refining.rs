@@ -39,11 +39,13 @@ impl Refining<'_> {
         let at = at.map(|coordinate| u32::try_from(coordinate).unwrap_or(u32::MAX));
         let stage = |preview: Option<&Preview>| {
             let preview = preview.filter(|preview| !preview.exact.contains(at));
-            preview.map(|preview| preview.quality)
+            let quality = preview.map(|preview| preview.quality);
+            // What was moved by whole pixels most often has all of its samples, and a hand drags it: no hatch for that while.
+            quality.filter(|quality| *quality != PreviewQuality::Moved)
         };
         match self.0.map(stage) {
             [None, None] => true,
-            [Some(a), Some(b)] => a == b && !matches!(a, PreviewQuality::Moved | PreviewQuality::Earlier),
+            [Some(a), Some(b)] => a == b && a != PreviewQuality::Earlier,
             _ => false,
         }
     }
@@ -77,10 +79,12 @@ mod tests {
     #[test]
     fn preview_is_not_compared_with_a_final_picture() {
         let [rate_one, earlier] = [PreviewQuality::RateOne, PreviewQuality::Earlier].map(preview);
+        let moved = preview(PreviewQuality::Moved);
         assert_eq!(hatched([None, None]), [false; 2], "both final");
         assert_eq!(hatched([Some(&rate_one), None]), [false, true], "one is refined");
         assert_eq!(hatched([None, Some(&rate_one)]), [false, true], "or the other");
         assert_eq!(hatched([Some(&rate_one); 2]), [false; 2], "both alike");
+        assert_eq!(hatched([Some(&moved), None]), [false; 2], "as final, but for its place");
         assert_eq!(
             hatched([Some(&earlier); 2]),
             [false, true],

@@ -2,6 +2,7 @@
 
 mod legend;
 mod look;
+mod unit;
 
 use std::sync::LazyLock;
 
@@ -15,24 +16,23 @@ use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, WHITE, regist
 
 use self::legend::ChartLegend;
 use self::look::{Look, draw_words};
+use self::unit::{LETTERS, Unit};
 use super::axis::{Axis, Scale};
 use super::beside::Beside;
 use super::lines::{Stroke, draw_line};
-use super::{Anchor, PixelRect, TextBlock, TextStyle};
+use super::{PixelRect, TextBlock, TextStyle};
 use crate::plain;
 use crate::raster::Framebuffer;
 
 /// What fonts are called here.
 const FONT: &str = "sans-serif";
-/// Heights of letters in units: of legend and notes, of the numbers of axes, and of the words beside points.
-const LETTERS: f64 = 1.1;
+/// Heights of letters in units: of the numbers of axes, and of the words beside points.
 const NUMBERS: f64 = 1.15;
 const WORDS: f64 = 1.05;
 /// Around the chart, and below it for numbers and words, in units.
 const MARGIN: f64 = 0.8;
 const BELOW: f64 = 3.4;
-/// Straight `0xAARRGGBB` of words and of what is behind all.
-const INK: u32 = 0xff20_2428;
+/// Straight `0xAARRGGBB` of what is behind all.
 const PAPER: u32 = 0xffff_ffff;
 
 /// Whether the typeface is there; it is part of the program.
@@ -95,7 +95,8 @@ pub fn draw_plot(plot: &Plot, size: [u32; 2]) -> Result<Framebuffer, String> {
     let ranges = ranges(plot).ok_or("there is no point to show")?;
     let mut bytes = vec![0; size[0] as usize * size[1] as usize * 3];
     let unit = Unit::of_picture(size);
-    let legend = ChartLegend::new(plot, size, unit);
+    let names: Vec<&str> = plot.series.iter().map(|series| series.name.as_str()).collect();
+    let legend = ChartLegend::new((&plot.heading, &names), size, unit);
     let area = size[0] - legend.width();
     let places = draw_axes(plot, (ranges, area), size, &mut bytes).map_err(|error| error.to_string())?;
     let mut picture = Framebuffer::new(size[0], size[1]);
@@ -144,48 +145,6 @@ type Area<'b> = DrawingArea<BitMapBackend<'b>, Shift>;
 struct Places {
     inside: PixelRect,
     points: Vec<Vec<[i64; 2]>>,
-}
-
-/// Pixels of units of letters, which keep their part of the picture.
-#[derive(Clone, Copy, Debug)]
-struct Unit(f64);
-
-impl Unit {
-    fn of_picture([width, height]: [u32; 2]) -> Self {
-        let [width, height] = [width, height].map(|side| f64::from(side.min(Framebuffer::MAX_SIDE)));
-        Self((width.min(height * 1.5) / 60.0).max(8.0))
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most a picture's side"
-    )]
-    fn px(self, units: f64) -> u32 {
-        (self.0 * units).round().max(0.0) as u32
-    }
-
-    /// The size of letters whose line is so many units high.
-    #[expect(clippy::cast_possible_truncation, reason = "a part of a picture's side")]
-    fn letters(self, units: f64) -> f32 {
-        // Heights are told from ascent to descent.
-        (self.0 * units / 1.12) as f32
-    }
-
-    /// Pixels across a line.
-    fn line(self) -> f64 {
-        (self.0 * 0.12).max(1.0)
-    }
-
-    /// Pixels from the middle of a point to its edge.
-    fn mark(self) -> f64 {
-        self.0 * 0.34
-    }
-
-    /// About how wide a text of this height is: a letter is about half as wide as high.
-    fn width(self, text: &str, height: f64) -> f64 {
-        self.0 * height * 0.55 * text.chars().count() as f64
-    }
 }
 
 /// Draws all but points and legend into rows of three bytes a pixel; the chart is `area` pixels wide.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::look::Look;
-use super::{INK, LETTERS, Plot, Unit};
+use super::unit::{INK, LETTERS, Unit};
 use crate::figure::{Anchor, TextBlock, TextStyle};
 use crate::plain;
 use crate::raster::Framebuffer;
@@ -26,15 +26,11 @@ pub(super) struct ChartLegend {
 }
 
 impl ChartLegend {
-    /// The legend beside a chart of this size; it takes a third of its width at most, and nothing where no series has a name.
-    pub(super) fn new(plot: &Plot, [width, height]: [u32; 2], unit: Unit) -> Self {
+    /// The legend of the names of all series below their heading, beside a chart of this size; it takes a third of its width
+    /// at most, and nothing where no series has a name.
+    pub(super) fn new((heading, names): (&str, &[&str]), [width, height]: [u32; 2], unit: Unit) -> Self {
         let style = TextStyle::new(unit.letters(LETTERS), INK);
-        let named = || {
-            plot.series
-                .iter()
-                .enumerate()
-                .filter(|(_, series)| !series.name.is_empty())
-        };
+        let named = || names.iter().enumerate().filter(|(_, name)| !name.is_empty());
         let mut legend = Self {
             heading: None,
             rows: Vec::new(),
@@ -42,24 +38,20 @@ impl ChartLegend {
             width: 0,
             unit,
         };
-        let longest = named().map(|(_, series)| whole_width(&series.name, style)).max();
+        let longest = named().map(|(_, name)| whole_width(name, style)).max();
         let Some(longest) = longest else { return legend };
         let beside = unit.px(LINE + MARGIN);
-        let wanted = longest.max(whole_width(&plot.heading, style).saturating_sub(unit.px(LINE)));
+        let wanted = longest.max(whole_width(heading, style).saturating_sub(unit.px(LINE)));
         let room = wanted.min((width / 3).saturating_sub(beside));
         legend.width = room + beside;
-        if !plot.heading.is_empty() {
-            legend.heading = Some(TextBlock::new(
-                &plain::line(&plot.heading),
-                style,
-                Some(room + unit.px(LINE)),
-            ));
+        if !heading.is_empty() {
+            legend.heading = Some(TextBlock::new(&plain::line(heading), style, Some(room + unit.px(LINE))));
         }
         let block = |text: &str| TextBlock::new(&plain::line(text), style, Some(room));
         // What is left of the height, with a line for those that find no room.
         let mut left = height.saturating_sub(legend.top() + style.line_height() + unit.px(MARGIN));
-        for (number, series) in named() {
-            let name = block(&series.name);
+        for (number, name) in named() {
+            let name = block(name);
             let needed = name.size()[1] + unit.px(GAP);
             if needed > left {
                 let missing = named().count() - legend.rows.len();
@@ -114,48 +106,32 @@ fn whole_width(text: &str, style: TextStyle) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::PlotSeries;
     use super::*;
 
-    fn plot(names: &[&str]) -> Plot {
-        Plot {
-            title: String::new(),
-            axes: [String::new(), String::new()],
-            heading: "pixel sampling, level sampling".to_owned(),
-            series: names
-                .iter()
-                .map(|name| PlotSeries {
-                    name: (*name).to_owned(),
-                    points: Vec::new(),
-                })
-                .collect(),
-        }
+    fn legend_of(names: &[&str]) -> ChartLegend {
+        let size = [900, 600];
+        ChartLegend::new(("pixel sampling, level sampling", names), size, Unit::of_picture(size))
     }
 
     #[test]
     fn legend_has_names_whole() {
-        let size = [900, 600];
         let long = "pixel sampling nearest, level sampling zero, resolve filter mitchell, sample rate 16";
-        let legend = ChartLegend::new(&plot(&["nearest", long]), size, Unit::of_picture(size));
-        assert!(legend.width() <= size[0] / 3, "beside a chart");
+        let legend = legend_of(&["nearest", long]);
+        assert!(legend.width() <= 300, "beside a chart");
         let lines: Vec<&str> = legend.rows[1].1.lines().map(str::trim_end).collect();
         assert_eq!(lines.join(" "), long, "broken between words");
         let room = legend.width() - legend.unit.px(LINE + MARGIN);
         for (_, name) in &legend.rows {
             assert!(name.size()[0] <= room, "{name:?} in {room} pixels");
         }
-        assert!(
-            ChartLegend::new(&plot(&["", ""]), size, Unit::of_picture(size)).width() == 0,
-            "none where nothing has a name"
-        );
+        assert_eq!(legend_of(&["", ""]).width(), 0, "none where nothing has a name");
     }
 
     #[test]
     fn legend_says_what_it_has_no_room_for() {
-        let size = [900, 600];
         let names: Vec<String> = (0..60).map(|number| format!("line {number}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let legend = ChartLegend::new(&plot(&names), size, Unit::of_picture(size));
+        let legend = legend_of(&names);
         let more = legend.more.as_ref().expect("sixty lines");
         let told: Vec<&str> = more.lines().collect();
         assert_eq!(told, [format!("and {} more", 60 - legend.rows.len())], "the rest");

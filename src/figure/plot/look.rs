@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::figure::lines::{Stroke, draw_line};
 use crate::figure::paint::{blend, for_each_index};
-use crate::figure::{PixelRect, TextBlock};
+use crate::figure::{Anchor, PixelRect, TextBlock};
 use crate::raster::Framebuffer;
 
 /// Colours of series, `0xAARRGGBB` (M. Okabe, K. Ito, "Color Universal Design", 2008), the palest left out.
@@ -120,9 +120,9 @@ impl Look {
 /// Draws words with paper around their letters, so that they are read over lines too.
 pub(super) fn draw_words(picture: &mut Framebuffer, [ink, paper]: [&TextBlock; 2], [x, y]: [i64; 2]) {
     for (across, down) in [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, 1), (-1, 1), (1, -1)] {
-        paper.draw(picture, [x + across * 2, y + down * 2], super::Anchor::Left);
+        paper.draw(picture, [x + across * 2, y + down * 2], Anchor::Left);
     }
-    ink.draw(picture, [x, y], super::Anchor::Left);
+    ink.draw(picture, [x, y], Anchor::Left);
 }
 
 /// The parts of a stretch along a line that have ink, where dashes begin at its start.

@@ -254,19 +254,19 @@ fn sheet_at_fault_writes_nothing() {
         ],
         &["64", "80"],
     );
-    let many = (1..=100).map(|n| n.to_string()).collect::<Vec<_>>().join(",");
+    let list = |values: std::ops::RangeInclusive<i32>| values.map(|n| n.to_string()).collect::<Vec<_>>().join(",");
+    let (seeds, biases) = (list(1..=100), format!("--lod-bias={}", list(-16..=16)));
     refused(
         &[
             "-o",
             "s.png",
             "--seed",
-            &many,
-            "--lod-bias",
-            &many,
-            "--lod-level",
-            &many,
-            "--pattern",
-            "grid,r2,sobol",
+            &seeds,
+            &biases,
+            "--sample-rate=1,4,9,16,25,36,49,64",
+            "--anisotropy=1,2,4,8,16",
+            "--pattern=grid,r2,sobol",
+            "--pixel-sampling=nearest,bilinear,mitchell",
         ],
         &["64", "over a million"],
     );

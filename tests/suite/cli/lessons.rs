@@ -360,17 +360,16 @@ fn lesson_slides_mark_the_pin() {
     };
     // The canvas has the middle of the picture; its upper left corner is far from the magnifier in any other.
     let (plain, pinned) = (draw("plain", ""), draw("pinned", "pin = \"5,5\"\n"));
-    let red = 0xffff_3b30;
-    let count = |frame: &Framebuffer| frame.pixels().iter().filter(|pixel| **pixel == red).count();
-    assert_eq!(count(&plain), 0);
-    let columns = |from: usize, to: usize| {
-        let rows = pinned.pixels().chunks(960).take(100);
-        rows.flat_map(move |row| &row[from..to])
-            .filter(|pixel| **pixel == red)
-            .count()
+    let is_red = |pixel: u32| {
+        let [_, red, green, blue] = pixel.to_be_bytes();
+        red > 220 && green < 160 && blue < 160
     };
-    // The canvas is about 490 pixels wide, in the middle of a picture that begins at column 326.
-    assert!(columns(380, 460) > 20, "a ring about the pin: {}", count(&pinned));
+    let count = |frame: &Framebuffer| frame.pixels().iter().filter(|pixel| is_red(**pixel)).count();
+    assert_eq!(count(&plain), 0, "nothing else is red");
+    // The canvas begins at column 384 and row 25, and a unit has five pixels.
+    let rows = pinned.pixels().chunks(960).skip(35).take(27);
+    let ring = rows.flat_map(|row| &row[395..424]).filter(|pixel| is_red(**pixel));
+    assert!((30..120).contains(&ring.count()), "a ring about the pin");
 }
 
 fn rasterscope_frame(path: &Path) -> Framebuffer {

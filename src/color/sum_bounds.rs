@@ -95,11 +95,13 @@ pub(crate) fn sums_at<S: Simd>(simd: S, end: f32x16<S>, counts: f32x16<S>, mean:
 
 #[inline(always)]
 fn sums_of_half<S: Simd>(simd: S, end: f64x8<S>, counts: f64x8<S>, mean: &SampleMean) -> [u64; PIXELS / 2] {
+    // Rounding leaves room below black, where there is no sum.
+    let end = end.max(f64x8::splat(simd, 0.0));
     let SampleMean::Linear(resolver) = mean else {
-        return whole(end.max(f64x8::splat(simd, 0.0)) * counts).to_array();
+        return whole(end * counts).to_array();
     };
     let light = resolver.of_stored();
-    let below = end.max(f64x8::splat(simd, 0.0)).min(f64x8::splat(simd, ONE)).floor();
+    let below = end.min(f64x8::splat(simd, ONE)).floor();
     let [mut from, mut to] = [[0.0; PIXELS / 2]; 2];
     for (i, below) in whole(below).to_array().into_iter().enumerate() {
         let at = low_part(below);

@@ -266,11 +266,17 @@ mod tests {
                 return Ok(None);
             }
             let mut unit = || -> Result<f32> { Ok(f32::from(u.arbitrary::<u8>()?) / 255.0) };
-            let values = [
+            let mut values = [
                 [unit()?, unit()?, unit()?],
                 [unit()?, 0.0, unit()?],
                 [unit()?, unit()?, 1.0],
             ];
+            // Pure colours have channels that are black everywhere.
+            if u.ratio(1, 4)? {
+                for corner in &mut values {
+                    corner[1] = 0.0;
+                }
+            }
             let grid = SampleGrid {
                 side: subpixels.side().cast_unsigned(),
                 origin: [u.int_in_range(-20..=20)?, 2],

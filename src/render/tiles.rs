@@ -24,10 +24,8 @@ pub(super) fn placed(patterns: &[Pattern], view: &ViewTransform, settings: &Rend
         coverage: PixelCoverage::Sampled,
         ..settings.in_effect()
     };
-    let to_pixels = |pattern: &Pattern| {
-        let unit_to_user = pattern.to_user * DAffine2::from_scale(pattern.tile.canvas);
-        view.scene_to_pixels * unit_to_user
-    };
+    let to_pixels =
+        |pattern: &Pattern| view.scene_to_pixels * pattern.to_user * DAffine2::from_scale(pattern.tile.canvas);
     let sides = patterns.iter().map(|pattern| {
         let matrix = to_pixels(pattern).matrix2;
         DVec2::new(matrix.x_axis.length(), matrix.y_axis.length())
@@ -50,8 +48,8 @@ pub(super) fn placed(patterns: &[Pattern], view: &ViewTransform, settings: &Rend
 struct Size {
     /// Width and height.
     texels: DVec2,
-    /// Whether there is a texel for each sample, and not one for a pixel or more.
-    of_samples: bool,
+    /// Whether a texel shows one sample: there is one for each, and more than a few along both sides.
+    is_sampled: bool,
 }
 
 /// How large tiles are drawn whose sides have these lengths in pixels: where their samples together have no room, by their
@@ -62,7 +60,7 @@ fn sizes(sides: &[DVec2], sample_rate: SampleRate) -> Vec<Size> {
         let is_small = samples.max_element() <= TileBudget::MAX_SIDE && samples.element_product() <= MOST_TEXELS;
         Size {
             texels: if is_small { samples } else { *sides },
-            of_samples: is_small,
+            is_sampled: is_small && samples.min_element() >= LEAST_SIDE,
         }
     };
     let fine: Vec<Size> = sides.iter().map(of_samples).collect();
@@ -70,16 +68,16 @@ fn sizes(sides: &[DVec2], sample_rate: SampleRate) -> Vec<Size> {
     let part = TileBudget::part(TileBudget::wanted(sides.iter().copied()));
     let coarse = sides.iter().map(|sides| Size {
         texels: sides.min(DVec2::splat(TileBudget::MAX_SIDE)) * part,
-        of_samples: false,
+        is_sampled: false,
     });
     let sizes = if have_room { fine } else { coarse.collect() };
-    let whole = |Size { texels, of_samples }: Size| Size {
+    let whole = |Size { texels, is_sampled }: Size| Size {
         texels: if texels.is_finite() {
             texels.ceil().clamp(DVec2::ONE, DVec2::splat(TileBudget::MAX_SIDE))
         } else {
             texels
         },
-        of_samples,
+        is_sampled,
     };
     sizes.into_iter().map(whole).collect()
 }
@@ -89,12 +87,12 @@ fn tile(
     pattern: &Pattern,
     Size {
         texels: size,
-        of_samples,
+        is_sampled,
     }: Size,
     settings: &RenderSettings,
 ) -> Option<Arc<Tile>> {
     // One sample is enough for a texel that is one; not where the tile has hardly any, and not for one that is a pixel.
-    let sample_rate = if of_samples && size.min_element() >= LEAST_SIDE {
+    let sample_rate = if is_sampled {
         SampleRate::ONE
     } else {
         settings.sample_rate
@@ -140,17 +138,20 @@ mod tests {
     fn tiles_have_their_samples_their_pixels_or_what_room_there_is() {
         let sizes = |count: usize, side: f64, rate| sizes(&vec![DVec2::splat(side); count], rate);
         let rate = SampleRate::new(16).expect("a rate");
-        for (count, side, expected, of_samples) in [
+        for (count, side, expected, is_sampled) in [
             (1, 99.5, 398.0, true),
             (1, 2000.5, 2001.0, false),
             (4, 9000.0, 4096.0, false),
-            (1, 0.1, 1.0, true),
+            (1, 0.1, 1.0, false),
+            // Hardly any samples, though as many whole texels.
+            (1, 1.9, 8.0, false),
+            (1, 2.0, 8.0, true),
             // One for each sample would be 77 million.
             (30, 400.0, 400.0, false),
         ] {
             let expected = Size {
                 texels: DVec2::splat(expected),
-                of_samples,
+                is_sampled,
             };
             let found = sizes(count, side, rate);
             assert!(

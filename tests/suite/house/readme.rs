@@ -321,30 +321,23 @@ fn help_has_completions_of_every_command_and_option() {
 #[cfg(target_os = "linux")]
 #[test]
 fn completions_complete_in_a_shell() {
-    let ask = "source <(\"$0\" help completions bash); COMP_WORDS=(rasterscope render --patt); COMP_CWORD=2; \
-               _rasterscope rasterscope --patt render; echo \"${COMPREPLY[@]}\"";
-    let answer = Command::new("bash")
-        .args(["-c", ask, env!("CARGO_BIN_EXE_rasterscope")])
-        .output()
-        .unwrap();
-    assert_eq!(
-        String::from_utf8_lossy(&answer.stdout).trim(),
-        "--pattern",
-        "{answer:?}"
-    );
-    let ask = "source <(\"$0\" help completions bash); COMP_WORDS=(rasterscope help op); COMP_CWORD=2; \
-               _rasterscope rasterscope op help; echo \"${COMPREPLY[@]}\"; \
-               COMP_WORDS=(rasterscope board --vary patt); COMP_CWORD=3; \
-               _rasterscope rasterscope patt --vary; echo \"${COMPREPLY[@]}\"";
-    let answer = Command::new("bash")
-        .args(["-c", ask, env!("CARGO_BIN_EXE_rasterscope")])
-        .output()
-        .unwrap();
-    assert_eq!(
-        String::from_utf8_lossy(&answer.stdout).trim(),
-        "options\npattern",
-        "a page and a setting: {answer:?}"
-    );
+    let answer = |ask: &str| {
+        let ask = format!("source <(\"$0\" help completions bash); {ask}");
+        let answer = Command::new("bash")
+            .args(["-c", &ask, env!("CARGO_BIN_EXE_rasterscope")])
+            .output()
+            .unwrap();
+        String::from_utf8_lossy(&answer.stdout).trim().to_owned()
+    };
+    let option = "COMP_WORDS=(rasterscope render --patt); COMP_CWORD=2; \
+                  _rasterscope rasterscope --patt render; echo \"${COMPREPLY[@]}\"";
+    assert_eq!(answer(option), "--pattern");
+    let page = "COMP_WORDS=(rasterscope help op); COMP_CWORD=2; \
+                _rasterscope rasterscope op help; echo \"${COMPREPLY[@]}\"";
+    assert_eq!(answer(page), "options");
+    let setting = "COMP_WORDS=(rasterscope board --vary patt); COMP_CWORD=3; \
+                   _rasterscope rasterscope patt --vary; echo \"${COMPREPLY[@]}\"";
+    assert_eq!(answer(setting), "pattern");
 }
 
 #[test]

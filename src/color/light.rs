@@ -147,6 +147,11 @@ impl LightResolver {
         self.count
     }
 
+    /// How means are rounded.
+    pub(super) fn rules(&self) -> Rules {
+        self.rules
+    }
+
     /// The light of each stored channel of an opaque colour, in parts of [`ONE_LIGHT`].
     #[inline]
     pub(super) fn of_stored(&self) -> &'static [u32; 1 << 16] {
@@ -154,14 +159,14 @@ impl LightResolver {
     }
 
     /// The light of each byte of an opaque colour.
-    pub(super) fn of_bytes() -> &'static [u32; 256] {
+    pub(crate) fn of_bytes() -> &'static [u32; 256] {
         &LIGHT_OF_BYTES
     }
 
-    /// The pixel of the light of opaque samples.
+    /// The pixel of the light of all samples, which are opaque, in parts of [`ONE_LIGHT`].
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "a product of at most 39 and 63 bits")]
-    pub(super) fn opaque_pixel(&self, [r, g, b]: [u64; 3]) -> u32 {
+    pub(crate) fn opaque_pixel(&self, [r, g, b]: [u64; 3]) -> u32 {
         // What rounding the reciprocal up adds is less than the part of one sample: the whole part of the mean stays.
         let byte = |sum: u64| {
             let mean = (u128::from(sum) * u128::from(self.reciprocal)) >> 63;

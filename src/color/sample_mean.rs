@@ -7,7 +7,7 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use super::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
+use super::{LightResolver, NearLight, Premultiplied16, ResolveSpace, Resolver};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -66,20 +66,15 @@ impl SampleMean {
     }
 
     #[inline(always)]
-    fn opaque_pixels_with<S: Simd>(&self, _: S, samples: &[Premultiplied16], pixels: &mut [u32]) {
-        let count = samples.len() / pixels.len().max(1);
-        let samples = samples.chunks_exact(count.max(1));
+    fn opaque_pixels_with<S: Simd>(&self, simd: S, samples: &[Premultiplied16], pixels: &mut [u32]) {
         match self {
             Self::Stored(resolver) => {
+                let samples = samples.chunks_exact(resolver.count() as usize);
                 for (pixel, samples) in pixels.iter_mut().zip(samples) {
                     *pixel = resolver.pixel(Premultiplied16::sums(samples));
                 }
             }
-            Self::Linear(resolver) => {
-                for (pixel, samples) in pixels.iter_mut().zip(samples) {
-                    *pixel = resolver.opaque_mean(samples);
-                }
-            }
+            Self::Linear(resolver) => NearLight::new(resolver).of_samples(simd, samples, pixels),
         }
     }
 }

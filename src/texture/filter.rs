@@ -11,9 +11,10 @@ use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
 use super::{
-    anisotropic_filter, block_filter, fixed_point, nearest_scattered, nearest_values, pixel_filter, sample_filter,
+    anisotropic_filter, block_filter, fixed_point, nearest_light, nearest_scattered, nearest_values, pixel_filter,
+    sample_filter,
 };
-use crate::color::Premultiplied16;
+use crate::color::{LightResolver, Premultiplied16};
 use crate::simd::Level;
 
 /// Coefficients beyond this are no triangle's: with them, sums of products could become infinite or no number.
@@ -151,6 +152,20 @@ impl<'a> Filter<'a> {
         } else {
             nearest_scattered::sum(simd, &plan, grid.side, list, sums)
         }
+    }
+
+    /// The pixels of all samples of a list, which are opaque and lie in the same places in every pixel, as the means of their light, where
+    /// each sample reads the nearest texel of one level; whether that is so. The pixel at `list.pixels[i]` is written to `pixels[i]`.
+    pub fn light_pixels(
+        &self,
+        simd: Level,
+        grid: SampleGrid,
+        (list, resolver): (ValueList<'_>, &LightResolver),
+        pixels: &mut [u32],
+    ) -> bool {
+        self.pixel == PixelSampling::Nearest
+            && list.inside.len() == list.count
+            && nearest_light::pixels(simd, (&self.plan(grid), grid.side), (list, resolver), pixels)
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {

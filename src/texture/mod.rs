@@ -27,6 +27,7 @@ mod level_choice;
 mod level_of_detail;
 mod light_bytes;
 mod nearest_counts;
+mod nearest_light;
 mod nearest_means;
 mod nearest_samples;
 mod nearest_scattered;

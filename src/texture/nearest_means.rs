@@ -93,7 +93,7 @@ pub(super) fn means<S: Simd, const N: usize>(
 
 /// The texel of each lane.
 #[inline(always)]
-fn read<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[u32; MAX_LANES]) -> u32x16<S> {
+pub(super) fn read<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[u32; MAX_LANES]) -> u32x16<S> {
     let (fours, _) = found.as_chunks::<4>();
     let low = read_four(simd, texels, fours[0]).combine(read_four(simd, texels, fours[1]));
     let high = read_four(simd, texels, fours[2]).combine(read_four(simd, texels, fours[3]));

@@ -9,6 +9,8 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
+use std::iter::Peekable;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f32x16, u32x16};
 
@@ -22,9 +24,8 @@ use crate::raster::shading::near_planes::{NearPlanes, PlaceSpreads, TintedPlanes
 use crate::rules::Rules;
 use crate::simd;
 
-/// Samples of a pixel that take little memory, and as many as there may be.
-const FEW: usize = 16;
-const MANY: usize = SampleRate::MAX as usize;
+/// The most samples that are shaded together: those of one pixel, or of some pixels that have fewer.
+const MOST_SAMPLES: usize = SampleRate::MAX as usize;
 
 /// Opaque colours in planes.
 #[derive(Clone, Copy)]
@@ -110,12 +111,9 @@ fn means_with<S: Simd>(
             },
         );
         put(pixels, values);
-        for i in lanes_without(certain, values.len()) {
-            values[i] = if placed.count <= FEW {
-                one_by_one::<FEW>(colors.shade, placed, range.start + i, mean)
-            } else {
-                one_by_one::<MANY>(colors.shade, placed, range.start + i, mean)
-            };
+        let mut open = lanes_without(certain, values.len()).peekable();
+        if open.peek().is_some() {
+            by_samples(colors.shade, placed.part(range), open, mean, values);
         }
     }
 }
@@ -189,22 +187,40 @@ fn mean_places<S: Simd>(simd: S, placed: PlacedPixels<'_>) -> [f32x16<S>; 2] {
     [number(both & 0xFFFF) * per_sample, number(both >> 16) * per_sample]
 }
 
-/// Pixel `i` of the list, from each of its samples, of which there are at most `N`.
+/// Those of up to [`PIXELS`] pixels that are open, from each of their samples.
 #[inline(never)]
-fn one_by_one<const N: usize>(shade: &dyn Shade, placed: PlacedPixels<'_>, i: usize, mean: &SampleMean) -> u32 {
+fn by_samples(
+    shade: &dyn Shade,
+    placed: PlacedPixels<'_>,
+    mut open: Peekable<impl Iterator<Item = usize>>,
+    mean: &SampleMean,
+    values: &mut [u32],
+) {
     let Pixels { grid, places } = placed.pixels;
-    let (place, inside) = (places[i], placed.inside(i));
-    let (mut points, mut colors) = ([[0; 2]; N], [Premultiplied16::TRANSPARENT; N]);
     let side = u16::try_from(grid.side).unwrap_or(u16::MAX);
-    for (point, inside) in points.iter_mut().zip(inside) {
-        *point = [0, 1].map(|axis| place[axis].wrapping_mul(side).wrapping_add(inside[axis].into()));
+    let (mut points, mut colors) = ([[0; 2]; MOST_SAMPLES], [Premultiplied16::TRANSPARENT; MOST_SAMPLES]);
+    let (mut lanes, mut pixels) = ([0; PIXELS], [0; PIXELS]);
+    let together = (MOST_SAMPLES / placed.count.max(1)).min(PIXELS);
+    while open.peek().is_some() {
+        let mut taken = 0;
+        for lane in open.by_ref().take(together) {
+            let points = points[taken * placed.count..].iter_mut();
+            for (point, inside) in points.zip(placed.inside(lane)) {
+                *point = [0, 1].map(|axis| places[lane][axis].wrapping_mul(side).wrapping_add(inside[axis].into()));
+            }
+            lanes[taken] = lane;
+            taken += 1;
+        }
+        let (points, colors) = (&points[..taken * placed.count], &mut colors[..taken * placed.count]);
+        shade.points(grid, points, colors);
+        for tint in placed.tints {
+            tint.over_all(colors, Rules::Standard);
+        }
+        mean.opaque_pixels(colors, &mut pixels[..taken]);
+        for (lane, pixel) in lanes[..taken].iter().zip(pixels) {
+            values[*lane] = pixel;
+        }
     }
-    let (points, colors) = (&points[..inside.len()], &mut colors[..inside.len()]);
-    shade.points(grid, points, colors);
-    for tint in placed.tints {
-        tint.over_all(colors, Rules::Standard);
-    }
-    mean.pixel(colors)
 }
 
 #[cfg(test)]

@@ -143,6 +143,12 @@ impl Shade for TextureShader<'_> {
     }
 
     fn placed_pixels(&self, placed: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
+        if let SampleMean::Linear(resolver) = mean
+            && let Some((filter, list)) = self.value_list((placed, None), mean)
+            && filter.light_pixels(simd::level(), placed.pixels.grid, (list, resolver), values)
+        {
+            return true;
+        }
         let mut sums = vec![[0; 3]; values.len()];
         let is_summed = self.value_sums((placed, None), mean, &mut sums);
         if is_summed {
@@ -227,8 +233,18 @@ impl TextureShader<'_> {
         mean: &SampleMean,
         sums: &mut [[u64; 3]],
     ) -> bool {
+        let list = self.value_list((placed, masks), mean);
+        list.is_some_and(|(filter, list)| filter.value_sums(simd::level(), placed.pixels.grid, list, sums))
+    }
+
+    /// What reads the texels of pixels, if nothing is painted over them.
+    fn value_list<'l>(
+        &self,
+        (placed, masks): (PlacedPixels<'l>, Option<&'l [u64]>),
+        mean: &SampleMean,
+    ) -> Option<(&Filter<'_>, ValueList<'l>)> {
         let Reader::Standard(filter) = &self.reader else {
-            return false;
+            return None;
         };
         let list = ValueList {
             pixels: placed.pixels.places,
@@ -237,7 +253,7 @@ impl TextureShader<'_> {
             masks,
             values: mean.byte_light().map_or(ByteValues::Stored, ByteValues::Table),
         };
-        placed.tints.is_empty() && filter.value_sums(simd::level(), placed.pixels.grid, list, sums)
+        placed.tints.is_empty().then_some((filter, list))
     }
 
     /// Sums over the samples of pixels, of which each must be opaque, under the standard rules.

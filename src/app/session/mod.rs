@@ -1,45 +1,9 @@
 //! A viewer with its panels: routes keys and pointer to the one or the other, runs egui, and puts the picture of the
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
-#[cfg(test)]
-mod boards;
-#[cfg(test)]
-mod by_mouse;
-#[cfg(test)]
-mod choosing;
-#[cfg(test)]
-mod comparing;
 mod damage;
-#[cfg(test)]
-mod explaining;
-#[cfg(test)]
-mod first_minute;
-#[cfg(test)]
-mod hands;
 mod input;
-#[cfg(test)]
-mod keyboard;
-#[cfg(test)]
-mod lessons;
-#[cfg(test)]
-mod low_windows;
-#[cfg(test)]
-mod magnifiers;
-#[cfg(test)]
-mod menus;
-#[cfg(test)]
-mod overlaps;
-#[cfg(test)]
-mod panel_edges;
-#[cfg(test)]
-mod profiles;
 mod room;
-#[cfg(test)]
-mod scene_list;
-#[cfg(test)]
-mod small_windows;
-#[cfg(test)]
-mod spectra;
 mod stage;
 mod surface;
 #[cfg(test)]

@@ -169,6 +169,9 @@ fn gather(folder: &Path, at: &mut Module, texts: &mut BTreeMap<Module, String>) 
     for entry in fs::read_dir(folder).expect("the folder is there") {
         let path = entry.expect("a readable entry").path();
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        if path.is_dir() && name == "tests" {
+            continue;
+        }
         if path.is_dir() {
             at.push(name);
             gather(&path, at, texts);
@@ -186,7 +189,7 @@ fn gather(folder: &Path, at: &mut Module, texts: &mut BTreeMap<Module, String>) 
 
 /// A file's text without its tests at the end, and without comments.
 fn code(text: &str) -> String {
-    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or("");
     text.lines()
         .map(|line| line.split("//").next().unwrap_or(""))
         .collect::<Vec<_>>()

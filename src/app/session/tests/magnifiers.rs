@@ -7,8 +7,7 @@ use crate::viewer::{AbCommand, Against, InspectorCommand};
 use glam::{DVec2, dvec2};
 
 use super::comparing::{CLOSE, WINDOWS, side_by_side};
-use super::hands::session;
-use super::small_windows::{click_on, comparing, right_click};
+use super::hands::{click_on, comparing, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Arrangement, Toggle};

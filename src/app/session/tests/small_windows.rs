@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use egui::accesskit::{Node, Rect};
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, key, nodes, place_of, session};
+use super::hands::{click, click_on, comparing, key, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::render::Visualisation;
 use crate::viewer::Dialog;
@@ -19,26 +19,6 @@ const PANEL: f64 = 264.0;
 /// What closes the explanation.
 const CLOSE: &str = "Explanation";
 
-pub(super) fn right_click(session: &mut Session, at: [f64; 2]) {
-    session.pointer(Some(DVec2::from(at)));
-    for down in [true, false] {
-        session.button(PointerButton::Secondary, down);
-    }
-    session.settle();
-}
-
-pub(super) fn click_on(session: &mut Session, name: &str) {
-    let at = place_of(session, name);
-    click(session, at);
-    session.settle();
-}
-
-/// Whether this text is to be seen.
-pub(super) fn says(session: &mut Session, text: &str) -> bool {
-    let holds = |node: &Node| node.value().is_some_and(|value| value.contains(text));
-    nodes(session).iter().any(holds)
-}
-
 /// How far below the window's upper edge a text begins.
 fn top_of(session: &mut Session, text: &str) -> f64 {
     let nodes = nodes(session);
@@ -46,17 +26,6 @@ fn top_of(session: &mut Session, text: &str) -> f64 {
         .iter()
         .find(|node| node.value().is_some_and(|value| value.contains(text)));
     node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {text}")).y0
-}
-
-/// A session with the side panel open, and with a comparison.
-pub(super) fn comparing(window: [u32; 2]) -> Session {
-    let mut session = session(Vec::new(), window);
-    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
-    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
-    session.command(Command::set("sample-rate", "4").expect("a value"));
-    session.wait(Duration::from_secs(10));
-    session.settle();
-    session
 }
 
 /// Where the controls are that lie between these columns, by name.

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::pos2;
 use glam::{DVec2, dvec2};
 
-use super::hands::{place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click_on, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Against, Arrangement, ProfileCommand, Toggle};

@@ -8,8 +8,7 @@
 
 use glam::dvec2;
 
-use super::hands::{key, nodes, session};
-use super::small_windows::right_click;
+use super::hands::{key, nodes, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Against, BoardCommand, LessonSource, ProfileCommand, SpectrumCommand, Toggle};

@@ -3,8 +3,7 @@
 use egui::accesskit::{Node, Rect};
 use glam::{DVec2, dvec2};
 
-use super::hands::{nodes, place_of, session};
-use super::small_windows::{comparing, right_click};
+use super::hands::{comparing, nodes, place_of, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{PixelRect, Toggle, ViewCommand, WindowCommand};

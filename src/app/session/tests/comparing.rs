@@ -12,8 +12,7 @@ use std::path::PathBuf;
 use egui::accesskit::Toggled;
 use glam::dvec2;
 
-use super::hands::{click, key, nodes, place_of, session};
-use super::small_windows::{click_on, comparing, right_click, says};
+use super::hands::{click, click_on, comparing, key, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::color::ResolveSpace;
 use crate::render::Visualisation;

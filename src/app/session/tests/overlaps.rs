@@ -8,9 +8,8 @@ use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, ViewCommand, Win
 use egui::{pos2, vec2};
 use glam::dvec2;
 
-use super::hands::session;
+use super::hands::{comparing, session};
 use super::lessons::at_step;
-use super::small_windows::comparing;
 use super::*;
 use crate::viewer::picture::SettingChange;
 use crate::viewer::script::Stage as _;

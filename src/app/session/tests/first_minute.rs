@@ -2,8 +2,7 @@
 
 use glam::dvec2;
 
-use super::hands::{click, key, place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click, click_on, key, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Against, MessageKind, Theme};

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{key, place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click_on, key, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand, LessonCommand, SceneCommand, Toggle};

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::accesskit::Node;
 use glam::dvec2;
 
-use super::hands::{nodes, place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click_on, nodes, place_of, says, session};
 use super::*;
 use crate::compare::SpectrumOf;
 use crate::viewer::script::Stage as _;

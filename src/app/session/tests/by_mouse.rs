@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use egui::{pos2, vec2};
 use glam::{DVec2, dvec2};
 
-use super::hands::{place_of, session};
-use super::small_windows::{click_on, comparing, right_click, says};
+use super::hands::{click_on, comparing, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Arrangement, Toggle};

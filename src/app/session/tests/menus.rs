@@ -6,8 +6,7 @@ use crate::viewer::{Action, CommandSpec, Group, InspectorCommand, ViewCommand, W
 use egui::accesskit::{Node, Toggled};
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, key, nodes, place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click, click_on, key, nodes, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Against, Arrangement, Dialog, Toggle, ViewNumbers, picture};

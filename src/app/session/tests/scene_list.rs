@@ -4,8 +4,7 @@ use crate::viewer::{AbCommand, LessonCommand, LessonSource, SceneCommand, Window
 
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, nodes, place_of, session};
-use super::small_windows::{click_on, right_click, says};
+use super::hands::{click, click_on, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Against, Toggle};

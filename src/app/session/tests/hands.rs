@@ -9,8 +9,8 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{Against, Toggle, ViewerOptions};
 use crate::viewer::{Dialog, KeyPress};
-use crate::viewer::{Toggle, ViewerOptions};
 
 /// A session at rest on these files, or on the gallery.
 pub(super) fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
@@ -22,6 +22,17 @@ pub(super) fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
     let viewer = Viewer::new(options).expect("threads");
     let mut session = Session::new(viewer, 1.0, Clock::Simulated(0.0));
     session.ctx().enable_accesskit();
+    session.settle();
+    session
+}
+
+/// A session with the side panel open, and with a comparison.
+pub(super) fn comparing(window: [u32; 2]) -> Session {
+    let mut session = session(Vec::new(), window);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.command(Command::set("sample-rate", "4").expect("a value"));
+    session.wait(Duration::from_secs(10));
     session.settle();
     session
 }
@@ -51,8 +62,28 @@ pub(super) fn click(session: &mut Session, at: DVec2) {
     }
 }
 
+pub(super) fn right_click(session: &mut Session, at: [f64; 2]) {
+    session.pointer(Some(DVec2::from(at)));
+    for down in [true, false] {
+        session.button(PointerButton::Secondary, down);
+    }
+    session.settle();
+}
+
+pub(super) fn click_on(session: &mut Session, name: &str) {
+    let at = place_of(session, name);
+    click(session, at);
+    session.settle();
+}
+
 pub(super) fn key(session: &mut Session, name: &str) {
     session.key(KeyPress::from_name(name).expect("a key"));
+}
+
+/// Whether this text is to be seen.
+pub(super) fn says(session: &mut Session, text: &str) -> bool {
+    let holds = |node: &Node| node.value().is_some_and(|value| value.contains(text));
+    nodes(session).iter().any(holds)
 }
 
 /// The fields of numbers, with an own number in each.

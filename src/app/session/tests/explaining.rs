@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use egui::accesskit::Node;
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, nodes, place_of, session};
-use super::small_windows::{click_on, right_click, says};
+use super::hands::{click, click_on, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 

@@ -4,8 +4,7 @@ use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand, Vi
 use glam::dvec2;
 use std::path::PathBuf;
 
-use super::hands::{key, place_of, session};
-use super::small_windows::{click_on, right_click, says};
+use super::hands::{click_on, key, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Against, Arrangement, InterfaceScale, LessonSource, PixelZoom, Toggle};

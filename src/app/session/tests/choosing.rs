@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{click, key, nodes, place_of, session};
-use super::small_windows::{click_on, says};
+use super::hands::{click, click_on, key, nodes, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Dialog, ExportCommand, LessonCommand, LessonSource, Other, Toggle, ViewerOptions};

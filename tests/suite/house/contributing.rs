@@ -1,5 +1,7 @@
-//! What CONTRIBUTING.md names is there: files, folders, programs, and the values that it says are listed by hand.
+//! What CONTRIBUTING.md names is there: files, folders, programs, and the values that it says are listed by hand. The
+//! changelog says everything once.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -56,6 +58,37 @@ fn contributing_names_files_that_are_there() {
     }
     let text = fs::read_to_string(root.join("CONTRIBUTING.md")).unwrap();
     assert!(paths(&text).len() > 40, "the paths were found");
+}
+
+/// The entries of a list, each in one line; an entry goes on in lines that are indented.
+fn bullets(text: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    let mut is_open = false;
+    for line in text.lines() {
+        if let Some(words) = line.strip_prefix("- ") {
+            found.push(words.to_owned());
+            is_open = true;
+        } else if let Some(last) = found.last_mut().filter(|_| is_open && line.starts_with("  ")) {
+            last.push(' ');
+            last.push_str(line.trim());
+        } else {
+            is_open = false;
+        }
+    }
+    found
+}
+
+/// A change belongs to one version.
+#[test]
+fn changelog_has_every_entry_once() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let entries = bullets(&fs::read_to_string(root.join("CHANGELOG.md")).unwrap());
+    assert!(entries.len() > 40, "the entries were found");
+    let mut seen = BTreeSet::new();
+    let twice: Vec<&String> = entries.iter().filter(|entry| !seen.insert(*entry)).collect();
+    assert!(twice.is_empty(), "{twice:#?}");
+    let text = "- one\n  entry\n- another\n\n## [0.1.0]\n\n- one entry\n";
+    assert_eq!(bullets(text), ["one entry", "another", "one entry"]);
 }
 
 #[test]

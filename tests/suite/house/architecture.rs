@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// A room, the rooms it may import, and the guarded crates it may name.
 struct Room {
@@ -28,12 +29,16 @@ const ROOMS: &[Room] = &[
         ],
         crates: &[
             "clap",
+            "clap_complete",
             "clap_mangen",
             "serde",
             "serde_json",
             "toml",
             "indicatif",
             "ctrlc",
+            "signal_hook",
+            "winsafe",
+            "nix",
         ],
     },
     Room {
@@ -55,6 +60,11 @@ const ROOMS: &[Room] = &[
             "fearless_simd",
             "notify",
             "etcetera",
+            "open",
+            "zbus",
+            "smithay_client_toolkit",
+            "wayland_client",
+            "x11rb",
             "serde",
             "toml",
         ],
@@ -165,38 +175,30 @@ const ROOMS: &[Room] = &[
     },
 ];
 
-/// Crates that only the rooms of the table may name.
-const GUARDED: &[&str] = &[
-    "winit",
-    "softbuffer",
-    "egui",
-    "egui_winit",
-    "roxmltree",
-    "svgtypes",
-    "usvg",
-    "simplecss",
-    "flate2",
-    "data_url",
-    "image",
-    "ab_glyph",
-    "epaint_default_fonts",
-    "png",
-    "sha2",
-    "rustfft",
-    "kurbo",
-    "i_triangle",
-    "clap",
-    "clap_mangen",
-    "serde",
-    "serde_json",
-    "toml",
-    "indicatif",
-    "jiff",
-    "pulldown_cmark",
-    "fearless_simd",
-    "notify",
-    "etcetera",
-];
+/// Dependencies that every room may name: vectors, threads and errors.
+const ANYWHERE: [&str; 3] = ["glam", "rayon", "thiserror"];
+
+/// Crates that only the rooms of the table may name: all other dependencies, as code calls them.
+static GUARDED: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
+    let manifest = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")).expect("the manifest");
+    guarded(&manifest)
+});
+
+/// The dependencies that a manifest names, those of single systems too, but for [`ANYWHERE`].
+fn guarded(manifest: &str) -> BTreeSet<String> {
+    let manifest: toml::Table = manifest.parse().expect("TOML");
+    let systems = manifest.get("target").and_then(toml::Value::as_table);
+    let of_systems = systems.into_iter().flat_map(toml::Table::values);
+    let lists = of_systems.map(|system| system.get("dependencies"));
+    lists
+        .chain([manifest.get("dependencies")])
+        .flatten()
+        .filter_map(toml::Value::as_table)
+        .flat_map(toml::Table::keys)
+        .map(|name| name.replace('-', "_"))
+        .filter(|name| !ANYWHERE.contains(&name.as_str()))
+        .collect()
+}
 
 /// What is wrong with one line of a room's code.
 fn violation(room: &Room, line: &str) -> Option<String> {
@@ -209,8 +211,8 @@ fn violation(room: &Room, line: &str) -> Option<String> {
             if known && other != room.name && !room.rooms.contains(&other) {
                 return Some(format!("{} uses the room `{other}`", room.name));
             }
-        } else if let Some(guarded) = GUARDED.iter().find(|guarded| name.split("::").next() == Some(guarded))
-            && !room.crates.contains(guarded)
+        } else if let Some(guarded) = name.split("::").next().and_then(|first| GUARDED.get(first))
+            && !room.crates.contains(&guarded.as_str())
         {
             return Some(format!("{} uses the crate `{guarded}`", room.name));
         }
@@ -324,6 +326,9 @@ fn architecture_checker_bites() {
         ("raster", "use crate::{color::Rgba, scene};", true),
         ("viewer", "use winit::window::Window;", true),
         ("app", "use winit::window::Window;", false),
+        ("raster", "let _ = ctrlc::set_handler(stop);", true),
+        ("viewer", "use x11rb::connection::Connection;", true),
+        ("raster", "use rayon::prelude::*;", false),
         ("viewer", "use egui_winit::State;", true),
         ("geometry", "let doc = roxmltree::Document::parse(text);", true),
         ("scene", "let doc = roxmltree::Document::parse(text);", false),
@@ -336,4 +341,22 @@ fn architecture_checker_bites() {
     for (name, line, bites) in cases {
         assert_eq!(violation(room(name), line).is_some(), bites, "{name}: {line}");
     }
+}
+
+#[test]
+fn architecture_guards_every_dependency() {
+    let manifest = "[dependencies]\nclap-complete = \"4\"\nglam = \"1\"\n[dev-dependencies]\ntempfile = \"3\"\n\
+                    [target.'cfg(unix)'.dependencies]\nsignal-hook = { version = \"0.4\", optional = true }\n";
+    assert!(
+        guarded(manifest).iter().eq(["clap_complete", "signal_hook"]),
+        "{:?}",
+        guarded(manifest)
+    );
+    let permitted = ROOMS.iter().flat_map(|room| room.crates);
+    let unknown: Vec<_> = permitted.filter(|name| !GUARDED.contains(**name)).collect();
+    assert!(unknown.is_empty(), "no dependency is called {unknown:?}");
+    assert!(
+        ANYWHERE.iter().all(|name| !GUARDED.contains(*name)) && GUARDED.len() > 30,
+        "the manifest was read: {GUARDED:?}"
+    );
 }

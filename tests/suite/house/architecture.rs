@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use super::floors::tree_paths;
+
 /// A room, the rooms it may import, and the guarded crates it may name.
 struct Room {
     name: &'static str,
@@ -200,11 +202,34 @@ fn guarded(manifest: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// What is wrong with one line of a room's code.
-fn violation(room: &Room, line: &str) -> Option<String> {
-    let code = line.split("//").next().unwrap_or("");
-    let names = paths(code);
-    for name in &names {
+/// What is wrong with the code of a room, with the numbers of lines.
+fn violations(room: &Room, text: &str) -> Vec<String> {
+    let statements = statements(text).into_iter();
+    statements
+        .filter_map(|(number, code)| Some(format!("{number}: {}", violation(room, &code)?)))
+        .collect()
+}
+
+/// The lines of a text without their comments, each with its number; an import over several lines is one.
+fn statements(text: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let mut goes_on = false;
+    for (number, line) in (1..).zip(text.lines()) {
+        let code = line.split("//").next().unwrap_or("");
+        match found.last_mut().filter(|_| goes_on) {
+            Some((_, statement)) => statement.push_str(code),
+            None => found.push((number, code.to_owned())),
+        }
+        let begins = code.trim_start();
+        let is_import = begins.starts_with("use ") || begins.starts_with("pub") && begins.contains(" use ");
+        goes_on = (goes_on || is_import) && !code.contains(';');
+    }
+    found
+}
+
+/// What is wrong with a statement of a room's code.
+fn violation(room: &Room, code: &str) -> Option<String> {
+    for name in paths(code) {
         if let Some(other) = name.strip_prefix("crate::").or(name.strip_prefix("rasterscope::")) {
             let other = other.split("::").next().unwrap_or("");
             let known = ROOMS.iter().any(|room| room.name == other);
@@ -220,21 +245,19 @@ fn violation(room: &Room, line: &str) -> Option<String> {
     None
 }
 
-/// The paths in a line of code, such as `crate::raster::Framebuffer`; braces after `crate::` are opened.
+/// The paths in a statement, such as `crate::raster::Framebuffer`; braces after `crate::` are opened.
 fn paths(code: &str) -> Vec<String> {
-    let mut found = Vec::new();
     let letters = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    for word in code.split(|c: char| !letters(c)) {
-        if word.contains("::") && !word.starts_with(':') {
-            found.push(word.to_owned());
-        }
-    }
-    for prefix in ["crate::{", "rasterscope::{"] {
-        if let Some((_, list)) = code.split_once(prefix) {
-            found.extend(
-                list.split(',')
-                    .map(|item| format!("crate::{}", item.trim().trim_matches(['{', '}', ';']))),
-            );
+    let words = code.split(|c: char| !letters(c));
+    let mut found: Vec<String> = words
+        .filter(|word| word.contains("::") && !word.starts_with(':'))
+        .map(str::to_owned)
+        .collect();
+    for prefix in ["crate::", "rasterscope::"] {
+        for (start, braces) in code.match_indices(&format!("{prefix}{{")) {
+            let mut inside = Vec::new();
+            tree_paths(Vec::new(), &code[start + braces.len() - 1..], &mut inside);
+            found.extend(inside.into_iter().map(|path| format!("crate::{}", path.join("::"))));
         }
     }
     found
@@ -277,9 +300,8 @@ fn architecture_doors_open_downwards_only() {
         };
         seen.insert(room.name);
         let text = fs::read_to_string(&path).expect("readable source");
-        for (number, line) in (1..).zip(text.lines()) {
-            wrong.extend(violation(room, line).map(|what| format!("{}:{number}: {what}", inner.display())));
-        }
+        let broken = violations(room, &text).into_iter();
+        wrong.extend(broken.map(|what| format!("{}:{what}", inner.display())));
     }
     assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
     assert!(seen.len() >= 8, "the rooms were looked at: {seen:?}");
@@ -304,14 +326,13 @@ fn architecture_benches_use_the_engine_only() {
     let mut wrong = Vec::new();
     for path in &all {
         let text = fs::read_to_string(path).expect("readable source");
-        for (number, line) in (1..).zip(text.lines()) {
-            wrong.extend(violation(&BENCHES, line).map(|what| format!("{}:{number}: {what}", path.display())));
-        }
+        let broken = violations(&BENCHES, &text).into_iter();
+        wrong.extend(broken.map(|what| format!("{}:{what}", path.display())));
     }
     assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
     assert!(all.len() >= 5, "the benchmarks were looked at: {all:?}");
     assert!(
-        violation(&BENCHES, "use rasterscope::viewer::Viewer;").is_some(),
+        !violations(&BENCHES, "use rasterscope::viewer::Viewer;").is_empty(),
         "the check bites"
     );
 }
@@ -324,6 +345,13 @@ fn architecture_checker_bites() {
         ("raster", "use crate::texture::Texture;", false),
         ("scene", "    let frame = crate::raster::Framebuffer::new(1, 1);", true),
         ("raster", "use crate::{color::Rgba, scene};", true),
+        ("raster", "use crate::{\n    color::Rgba,\n    scene::Scene,\n};", true),
+        (
+            "raster",
+            "use crate::{\n    color::Rgba, // not scene\n    texture,\n};",
+            false,
+        ),
+        ("raster", "use crate::{texture::{Texture, scene}};", false),
         ("viewer", "use winit::window::Window;", true),
         ("app", "use winit::window::Window;", false),
         ("raster", "let _ = ctrlc::set_handler(stop);", true),
@@ -338,9 +366,14 @@ fn architecture_checker_bites() {
         ("main", "use rasterscope::raster::Framebuffer;", true),
         ("raster", "// crate::scene::Scene is what this must not see", false),
     ];
-    for (name, line, bites) in cases {
-        assert_eq!(violation(room(name), line).is_some(), bites, "{name}: {line}");
+    for (name, text, bites) in cases {
+        assert_eq!(!violations(room(name), text).is_empty(), bites, "{name}: {text}");
     }
+    let later = "\nuse crate::color;\npub use crate::{\n    scene,\n};\nuse crate::render;";
+    assert_eq!(
+        violations(room("raster"), later),
+        ["3: raster uses the room `scene`", "6: raster uses the room `render`"]
+    );
 }
 
 #[test]

@@ -77,7 +77,7 @@ const WITHOUT_CIRCLES: &[&str] = &[
 ];
 
 /// A file's place in its room: `["coverage", "span"]`; a room's own file has none.
-type Module = Vec<String>;
+pub(super) type Module = Vec<String>;
 
 /// The files of a room, and which of them each imports.
 struct Imports {
@@ -246,7 +246,7 @@ fn exports(room: &str, module: &[String], text: &str) -> Vec<Module> {
 }
 
 /// The paths of a tree such as `a::{B, c::D}` below `base`; returns what follows it.
-fn tree_paths<'t>(mut base: Module, mut text: &'t str, found: &mut Vec<Module>) -> &'t str {
+pub(super) fn tree_paths<'t>(mut base: Module, mut text: &'t str, found: &mut Vec<Module>) -> &'t str {
     loop {
         text = text.trim_start();
         if let Some(mut list) = text.strip_prefix('{') {

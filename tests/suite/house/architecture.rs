@@ -1,6 +1,7 @@
 //! The walls of the house: which room may name which room and which crate.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -14,8 +15,6 @@ struct Room {
     crates: &'static [&'static str],
 }
 
-const BOTTOM: &[&str] = &["color", "geometry", "memory", "plain", "rules", "simd"];
-
 /// The table of permitted imports. Every room may name itself, `std` and crates that are not guarded.
 const ROOMS: &[Room] = &[
     Room {
@@ -26,7 +25,7 @@ const ROOMS: &[Room] = &[
     Room {
         name: "cli",
         rooms: &[
-            "app", "viewer", "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color",
+            "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
             "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[
@@ -51,8 +50,8 @@ const ROOMS: &[Room] = &[
     Room {
         name: "app",
         rooms: &[
-            "viewer", "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color",
-            "geometry", "rules", "simd", "plain", "memory",
+            "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
+            "simd", "plain",
         ],
         crates: &[
             "winit",
@@ -75,15 +74,14 @@ const ROOMS: &[Room] = &[
         name: "viewer",
         rooms: &[
             "figure", "compare", "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry",
-            "rules", "simd", "plain", "memory",
+            "rules", "plain",
         ],
         crates: &["image", "jiff", "toml", "pulldown_cmark"],
     },
     Room {
         name: "figure",
         rooms: &[
-            "compare", "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd",
-            "plain", "memory",
+            "compare", "render", "scene", "raster", "texture", "color", "geometry", "rules", "plain", "memory",
         ],
         crates: &[
             "image",
@@ -98,27 +96,25 @@ const ROOMS: &[Room] = &[
     Room {
         name: "compare",
         rooms: &[
-            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd",
         ],
         crates: &["fearless_simd", "rustfft"],
     },
     Room {
         name: "inspect",
         rooms: &[
-            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
+            "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "plain",
         ],
         crates: &["serde"],
     },
     Room {
         name: "render",
-        rooms: &[
-            "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
-        ],
+        rooms: &["scene", "post", "raster", "texture", "color", "geometry", "rules"],
         crates: &[],
     },
     Room {
         name: "scene",
-        rooms: &["texture", "color", "geometry", "rules", "simd", "plain", "memory"],
+        rooms: &["texture", "color", "geometry", "rules", "plain", "memory"],
         crates: &[
             "roxmltree",
             "svgtypes",
@@ -137,22 +133,22 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "raster",
-        rooms: &["texture", "color", "geometry", "rules", "simd", "plain", "memory"],
+        rooms: &["texture", "color", "geometry", "rules", "simd"],
         crates: &["fearless_simd"],
     },
     Room {
         name: "texture",
-        rooms: BOTTOM,
+        rooms: &["color", "rules", "simd"],
         crates: &["image", "png", "fearless_simd"],
     },
     Room {
         name: "geometry",
-        rooms: BOTTOM,
+        rooms: &["rules", "simd"],
         crates: &["kurbo", "i_triangle", "fearless_simd"],
     },
     Room {
         name: "color",
-        rooms: BOTTOM,
+        rooms: &["rules", "simd"],
         crates: &["fearless_simd"],
     },
     Room {
@@ -229,20 +225,55 @@ fn statements(text: &str) -> Vec<(usize, String)> {
 
 /// What is wrong with a statement of a room's code.
 fn violation(room: &Room, code: &str) -> Option<String> {
-    for name in paths(code) {
-        if let Some(other) = name.strip_prefix("crate::").or(name.strip_prefix("rasterscope::")) {
-            let other = other.split("::").next().unwrap_or("");
-            let known = ROOMS.iter().any(|room| room.name == other);
-            if known && other != room.name && !room.rooms.contains(&other) {
-                return Some(format!("{} uses the room `{other}`", room.name));
-            }
-        } else if let Some(guarded) = name.split("::").next().and_then(|first| GUARDED.get(first))
-            && !room.crates.contains(&guarded.as_str())
-        {
-            return Some(format!("{} uses the crate `{guarded}`", room.name));
+    let wrong = doors(code).into_iter().find(|door| match *door {
+        Door::Room(other) => other != room.name && !room.rooms.contains(&other),
+        Door::Crate(other) => !room.crates.contains(&other),
+    });
+    wrong.map(|door| format!("{} uses {door}", room.name))
+}
+
+/// What a room needs a permission for.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Door {
+    Room(&'static str),
+    Crate(&'static str),
+}
+
+impl fmt::Display for Door {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Room(name) => write!(f, "the room `{name}`"),
+            Self::Crate(name) => write!(f, "the crate `{name}`"),
         }
     }
-    None
+}
+
+/// The rooms and guarded crates that a statement names.
+fn doors(code: &str) -> Vec<Door> {
+    let door = |path: String| {
+        if let Some(inner) = path.strip_prefix("crate::").or(path.strip_prefix("rasterscope::")) {
+            let first = inner.split("::").next()?;
+            ROOMS
+                .iter()
+                .find(|room| room.name == first)
+                .map(|room| Door::Room(room.name))
+        } else {
+            // A crate beside a module of its name is `::png`.
+            let first = path.trim_start_matches("::").split("::").next()?;
+            GUARDED.get(first).map(|name| Door::Crate(name))
+        }
+    };
+    paths(code).into_iter().filter_map(door).collect()
+}
+
+/// What the table permits a room that no file of it does.
+fn unused(room: &Room, used: &BTreeSet<Door>) -> Vec<String> {
+    let rooms = room.rooms.iter().map(|name| Door::Room(name));
+    let permitted = rooms.chain(room.crates.iter().map(|name| Door::Crate(name)));
+    permitted
+        .filter(|door| !used.contains(door))
+        .map(|door| format!("{} is permitted {door} and has no use for it", room.name))
+        .collect()
 }
 
 /// The paths in a statement, such as `crate::raster::Framebuffer`; braces after `crate::` are opened.
@@ -250,7 +281,7 @@ fn paths(code: &str) -> Vec<String> {
     let letters = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     let words = code.split(|c: char| !letters(c));
     let mut found: Vec<String> = words
-        .filter(|word| word.contains("::") && !word.starts_with(':'))
+        .filter(|word| word.trim_start_matches(':').contains("::"))
         .map(str::to_owned)
         .collect();
     for prefix in ["crate::", "rasterscope::"] {
@@ -280,7 +311,7 @@ fn architecture_doors_open_downwards_only() {
     let mut all = Vec::new();
     files(&source, &mut all);
     let mut wrong = Vec::new();
-    let mut seen = BTreeSet::new();
+    let mut used: BTreeMap<&str, BTreeSet<Door>> = BTreeMap::new();
     for path in all {
         let inner = path.strip_prefix(&source).expect("below src");
         let first = inner
@@ -298,21 +329,38 @@ fn architecture_doors_open_downwards_only() {
             wrong.push(format!("{}: `{name}` is no room of the house", inner.display()));
             continue;
         };
-        seen.insert(room.name);
         let text = fs::read_to_string(&path).expect("readable source");
+        let statements = statements(&text).into_iter();
+        used.entry(room.name)
+            .or_default()
+            .extend(statements.flat_map(|(_, code)| doors(&code)));
         let broken = violations(room, &text).into_iter();
         wrong.extend(broken.map(|what| format!("{}:{what}", inner.display())));
     }
     assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
-    assert!(seen.len() >= 8, "the rooms were looked at: {seen:?}");
+    for room in ROOMS {
+        assert!(used.contains_key(room.name), "{} was looked at", room.name);
+        wrong.extend(unused(room, &used[room.name]));
+    }
+    assert!(wrong.is_empty(), "the table permits too much:\n{}", wrong.join("\n"));
+}
+
+/// No circle: the table lists rooms from the top down, and each may import what stands below it.
+#[test]
+fn architecture_rooms_stand_on_those_below() {
+    for (place, room) in ROOMS.iter().enumerate() {
+        for other in room.rooms {
+            let below = ROOMS[place + 1..].iter().any(|room| room.name == *other);
+            assert!(below, "{} imports {other}, which stands above it", room.name);
+        }
+    }
 }
 
 /// What the benchmarks may use: the engine, as any program could.
 const BENCHES: Room = Room {
     name: "benches",
     rooms: &[
-        "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
-        "memory",
+        "inspect", "render", "scene", "post", "raster", "texture", "color", "geometry", "rules", "simd",
     ],
     // usvg is the peers' reader too, and they get the typefaces that we have.
     crates: &["epaint_default_fonts", "serde_json", "sha2", "usvg"],
@@ -324,11 +372,14 @@ fn architecture_benches_use_the_engine_only() {
     let mut all = Vec::new();
     files(&root.join("benches"), &mut all);
     let mut wrong = Vec::new();
+    let mut used = BTreeSet::new();
     for path in &all {
         let text = fs::read_to_string(path).expect("readable source");
+        used.extend(statements(&text).into_iter().flat_map(|(_, code)| doors(&code)));
         let broken = violations(&BENCHES, &text).into_iter();
         wrong.extend(broken.map(|what| format!("{}:{what}", path.display())));
     }
+    wrong.extend(unused(&BENCHES, &used));
     assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
     assert!(all.len() >= 5, "the benchmarks were looked at: {all:?}");
     assert!(
@@ -391,5 +442,23 @@ fn architecture_guards_every_dependency() {
     assert!(
         ANYWHERE.iter().all(|name| !GUARDED.contains(*name)) && GUARDED.len() > 30,
         "the manifest was read: {GUARDED:?}"
+    );
+}
+
+#[test]
+fn architecture_finds_permissions_without_use() {
+    let room = Room {
+        name: "scene",
+        rooms: &["color", "texture"],
+        crates: &["png", "usvg"],
+    };
+    let code = "use ::png::Decoder; fn f(_: crate::color::Rgba) {}";
+    let used = doors(code).into_iter().collect();
+    assert_eq!(
+        unused(&room, &used),
+        [
+            "scene is permitted the room `texture` and has no use for it",
+            "scene is permitted the crate `usvg` and has no use for it"
+        ]
     );
 }

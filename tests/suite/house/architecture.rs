@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use super::floors::tree_paths;
+use super::imports::{paths, statements};
 
 /// A room, the rooms it may import, and the guarded crates it may name.
 struct Room {
@@ -206,23 +206,6 @@ fn violations(room: &Room, text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The lines of a text without their comments, each with its number; an import over several lines is one.
-fn statements(text: &str) -> Vec<(usize, String)> {
-    let mut found: Vec<(usize, String)> = Vec::new();
-    let mut goes_on = false;
-    for (number, line) in (1..).zip(text.lines()) {
-        let code = line.split("//").next().unwrap_or("");
-        match found.last_mut().filter(|_| goes_on) {
-            Some((_, statement)) => statement.push_str(code),
-            None => found.push((number, code.to_owned())),
-        }
-        let begins = code.trim_start();
-        let is_import = begins.starts_with("use ") || begins.starts_with("pub") && begins.contains(" use ");
-        goes_on = (goes_on || is_import) && !code.contains(';');
-    }
-    found
-}
-
 /// What is wrong with a statement of a room's code.
 fn violation(room: &Room, code: &str) -> Option<String> {
     let wrong = doors(code).into_iter().find(|door| match *door {
@@ -274,24 +257,6 @@ fn unused(room: &Room, used: &BTreeSet<Door>) -> Vec<String> {
         .filter(|door| !used.contains(door))
         .map(|door| format!("{} is permitted {door} and has no use for it", room.name))
         .collect()
-}
-
-/// The paths in a statement, such as `crate::raster::Framebuffer`; braces after `crate::` are opened.
-fn paths(code: &str) -> Vec<String> {
-    let letters = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    let words = code.split(|c: char| !letters(c));
-    let mut found: Vec<String> = words
-        .filter(|word| word.trim_start_matches(':').contains("::"))
-        .map(str::to_owned)
-        .collect();
-    for prefix in ["crate::", "rasterscope::"] {
-        for (start, braces) in code.match_indices(&format!("{prefix}{{")) {
-            let mut inside = Vec::new();
-            tree_paths(Vec::new(), &code[start + braces.len() - 1..], &mut inside);
-            found.extend(inside.into_iter().map(|path| format!("crate::{}", path.join("::"))));
-        }
-    }
-    found
 }
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -7,6 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use super::imports::{Module, tree_paths};
+
 /// A room whose parts stand on floors.
 struct House {
     room: &'static str,
@@ -75,9 +77,6 @@ const WITHOUT_CIRCLES: &[&str] = &[
     "app", "cli", "color", "compare", "figure", "geometry", "inspect", "post", "raster", "render", "scene", "texture",
     "viewer",
 ];
-
-/// A file's place in its room: `["coverage", "span"]`; a room's own file has none.
-pub(super) type Module = Vec<String>;
 
 /// The files of a room, and which of them each imports.
 struct Imports {
@@ -243,39 +242,6 @@ fn exports(room: &str, module: &[String], text: &str) -> Vec<Module> {
         }
     }
     found
-}
-
-/// The paths of a tree such as `a::{B, c::D}` below `base`; returns what follows it.
-pub(super) fn tree_paths<'t>(mut base: Module, mut text: &'t str, found: &mut Vec<Module>) -> &'t str {
-    loop {
-        text = text.trim_start();
-        if let Some(mut list) = text.strip_prefix('{') {
-            while !list.trim_start().starts_with('}') && !list.is_empty() {
-                let rest = tree_paths(base.clone(), list, found).trim_start();
-                if rest.len() == list.len() {
-                    return rest;
-                }
-                list = rest.strip_prefix(',').unwrap_or(rest);
-            }
-            return list.trim_start().strip_prefix('}').unwrap_or(list);
-        }
-        let end = text
-            .find(|c: char| !c.is_alphanumeric() && c != '_')
-            .unwrap_or(text.len());
-        if end == 0 {
-            found.push(base);
-            return text.strip_prefix('*').unwrap_or(text);
-        }
-        if &text[..end] != "self" {
-            base.push(text[..end].to_owned());
-        }
-        text = &text[end..];
-        let Some(rest) = text.strip_prefix("::") else {
-            found.push(base);
-            return text;
-        };
-        text = rest;
-    }
 }
 
 /// What is wrong with the imports of a room by its floors.

@@ -5,6 +5,7 @@ mod architecture;
 mod contributing;
 mod floors;
 mod fuzzing;
+mod imports;
 mod json;
 mod readme;
 mod values;

@@ -234,7 +234,9 @@ impl Guard {
     }
 }
 
-/// Writes files, all under other names first, so that neither a half file is ever seen nor half of the files.
+/// Writes files, all under other names first: none is moved to its place before all of them are written, so that no half
+/// file is ever seen and a full disk leaves none of them. The moves follow one another; where one fails, or the program is
+/// killed, those before it are done.
 ///
 /// # Errors
 /// When one cannot be written, or must not.

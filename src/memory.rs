@@ -1,4 +1,7 @@
-//! Whether the system has as much memory as a piece of work will take.
+//! Whether the system grants as much memory as a piece of work will take.
+//!
+//! A grant is no promise: a system that overcommits, as Linux does unless told otherwise, refuses only what it could never
+//! have, or what goes beyond a limit of the process, and may still end the program when the memory is filled.
 //!
 //! Who asks before the work can say what is wrong; the work itself ends the program, with status 1, where a single vector
 //! cannot grow.
@@ -11,10 +14,10 @@ pub struct OutOfMemory {
     pub megabytes: u64,
 }
 
-/// Asks the system for so many bytes, and gives them back.
+/// Asks the system for so many bytes, and gives them back unused.
 ///
 /// # Errors
-/// When it does not have them.
+/// When it refuses them.
 pub fn ask_for(bytes: u64) -> Result<(), OutOfMemory> {
     let mut room: Vec<u8> = Vec::new();
     let asked = room.try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX));

@@ -126,3 +126,17 @@ mod unix {
         ignored.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::SIGNALS;
+
+    #[test]
+    fn exit_status_of_every_signal_is_on_the_page_of_options() {
+        let page = include_str!("help/options.md");
+        for (signal, name) in SIGNALS {
+            let told = format!("{} after {name}", 128 + signal);
+            assert!(page.contains(&told), "{told}");
+        }
+    }
+}

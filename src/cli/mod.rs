@@ -1,7 +1,6 @@
 //! The command line: one file per command.
 //!
-//! Exit status 0: done. 2: the input or the arguments are at fault, said in one line on stderr. 1: everything else,
-//! and `diff` and `rerun --check` of pictures that differ. 130: stopped by Ctrl+C.
+//! What an exit status means stands on the page that `rasterscope help options` prints; `failure` and `interrupt` give it.
 
 mod arguments;
 mod bench;

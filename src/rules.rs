@@ -1,8 +1,9 @@
 //! The rules of the picture: ours, the course's, or those of a first draft.
 //!
 //! One setting, so that a student sees what each rule does by comparing two pictures. The type lies at the bottom
-//! of the house because four rooms obey it: edges (`raster`), bytes (`color`), texels (`texture`) and screen
-//! positions (`render`).
+//! of the house because most rooms read it: it decides who owns the samples on an edge (`geometry`), edges in 32-bit floats
+//! and what painting nothing does (`raster`), bytes (`color`, and `post`, which mixes them again), texels (`texture`) and
+//! screen positions (`render`). `compare` finds out which rules another picture follows, `inspect` says what they did.
 
 /// Which conventions decide a pixel where renderers differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -90,18 +90,7 @@ impl Explanation {
         format!("sample {} at ({}, {})", sample + 1, number(at[0]), number(at[1]))
     }
 
-    /// The colour of a sample and what made it, from the top down.
-    pub fn sample_lines(&self, sample: usize) -> Vec<String> {
-        let Some(found) = self.samples.get(sample) else {
-            return Vec::new();
-        };
-        vec![
-            format!("colour  {}", color(found.color)),
-            format!("shows   {}", self.stack_from(sample, usize::MAX)),
-        ]
-    }
-
-    /// As [`Explanation::sample_lines`], of a stack but the topmost few.
+    /// The colour of a sample and what made it, from the top down: of its stack the topmost few.
     pub fn short_sample_lines(&self, sample: usize) -> Vec<String> {
         /// So many fit beside a picture of the pixel.
         const MOST: usize = 3;

@@ -22,7 +22,7 @@ pub struct Levels {
     by_largest: Box<[u64; 256]>,
     /// Sum over pixels and channels.
     absolute: u64,
-    /// Sum over pixels and channels.
+    /// Sum over pixels and channels, in levels squared.
     squared: u64,
 }
 
@@ -69,11 +69,6 @@ impl Levels {
     /// Peak signal-to-noise ratio `20 log10(255 / RMSE)` in decibels; infinite for equal pictures.
     pub fn psnr(&self) -> f64 {
         20.0 * (255.0 / self.rmse()).log10()
-    }
-
-    /// The sum of all squared differences over pixels and channels, in levels squared.
-    pub fn squared_error(&self) -> u64 {
-        self.squared
     }
 
     fn mean(&self, sum: u64) -> f64 {
@@ -221,7 +216,7 @@ mod tests {
         assert!((levels.mae() - 11.0 / 12.0).abs() < 1e-12, "MAE {}", levels.mae());
         assert!((levels.rmse() - (41.0_f64 / 12.0).sqrt()).abs() < 1e-12, "RMSE");
         assert!((levels.psnr() - 42.794_777_5).abs() < 1e-6, "PSNR {}", levels.psnr());
-        assert_eq!(levels.squared_error(), 41, "9 + 16 + 16");
+        assert_eq!(levels.squared, 41, "9 + 16 + 16");
     }
 
     #[test]

@@ -36,8 +36,8 @@ const BESIDES: f32 = 196.0;
 const FRAME: f32 = 14.0;
 /// Height of the title with what is around the card's contents, in points.
 const HEAD: f32 = 46.0;
-/// Width of the words about colours, in points.
-const LEGEND: f32 = 12.0;
+/// Height of the legend's bar and of what its swatches stand in, in points.
+const LEGEND_HEIGHT: f32 = 12.0;
 /// The part of a wave's power from which on it is told to be an alias.
 const ALIAS: f64 = 0.5;
 
@@ -261,20 +261,20 @@ fn legend(ui: &mut Ui, found: &SpectrumFound) {
     let response = ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(RichText::new(format!("{low:.0}")).small().weak());
-        let (rect, _) = ui.allocate_exact_size(vec2(45.0, LEGEND), Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(vec2(45.0, LEGEND_HEIGHT), Sense::hover());
         let columns = 22_u8;
         for column in 0..columns {
             let part = f64::from(column) / f64::from(columns - 1);
             let left = rect.left() + f32::from(column) * 2.0;
             // The next one covers what is too wide, so that no seam is between them.
-            let bar = Rect::from_min_size(egui::pos2(left, rect.top()), vec2(3.0, LEGEND));
+            let bar = Rect::from_min_size(egui::pos2(left, rect.top()), vec2(3.0, LEGEND_HEIGHT));
             let color = rgb(scale_color(low + (high - low) * part, None));
             ui.painter().rect_filled(bar, 0.0, color);
         }
         ui.label(RichText::new(format!("{high:.0} dB")).small().weak());
         ui.add_space(4.0);
         for (band, name) in Band::ALL.into_iter().zip(["across", "down", "both"]) {
-            let (rect, _) = ui.allocate_exact_size(vec2(9.0, LEGEND), Sense::hover());
+            let (rect, _) = ui.allocate_exact_size(vec2(9.0, LEGEND_HEIGHT), Sense::hover());
             let swatch = Rect::from_center_size(rect.center(), vec2(9.0, 9.0));
             ui.painter().rect_filled(swatch, 1.0, rgb(band.color()));
             ui.label(RichText::new(name).small().weak());

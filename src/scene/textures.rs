@@ -239,7 +239,7 @@ impl<'doc> TextureTable<'doc> {
 
     fn bytes(&mut self, address: &str) -> Result<Vec<u8>, String> {
         if !is_data(address) && is_elsewhere(address) {
-            return Err("addresses in the net are not fetched".to_owned());
+            return Err("network addresses are not fetched".to_owned());
         }
         if self.bytes_left == 0 {
             return Err(format!(

@@ -90,7 +90,7 @@ impl Reader {
         }
     }
 
-    pub(in crate::viewer) fn start(&mut self, tag: &Tag<'_>) {
+    fn start(&mut self, tag: &Tag<'_>) {
         match tag {
             Tag::Strong => self.bold += 1,
             Tag::Emphasis => self.italic += 1,
@@ -136,14 +136,14 @@ impl Reader {
             }
             TagEnd::Item => {
                 self.flush();
-                self.in_item = !self.lists.is_empty() && self.lists.len() > 1;
+                self.in_item = self.lists.len() > 1;
             }
             TagEnd::Paragraph | TagEnd::Heading(_) | TagEnd::HtmlBlock => self.flush(),
             _ => {}
         }
     }
 
-    pub(in crate::viewer) fn add(&mut self, text: &str, code: bool) {
+    fn add(&mut self, text: &str, code: bool) {
         let look = match () {
             () if code => Look::Code,
             () if self.bold > 0 => Look::Bold,

@@ -21,8 +21,9 @@ mod table;
 use std::path::Path;
 use std::time::Duration;
 
-use race::Budget;
 use rasterscope::scene;
+
+use race::Budget;
 use table::{markdown, say};
 
 const BUDGET: Budget = Budget {

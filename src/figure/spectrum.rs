@@ -135,9 +135,10 @@ fn legend(analysis: &SpectrumAnalysis) -> Legend {
 
 #[cfg(test)]
 mod tests {
+    use glam::DAffine2;
+
     use super::*;
     use crate::texture::MipLevel;
-    use glam::DAffine2;
 
     #[test]
     fn axes_have_numbers_of_few_digits() {

@@ -464,8 +464,9 @@ fn vector(point: Point) -> DVec2 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::*;
 
     const STYLE: StrokeStyle = StrokeStyle {
         width: 1.0,

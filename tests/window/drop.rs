@@ -1,10 +1,9 @@
 //! A file dropped on the window, spoken as XDND: the protocol by which file managers do it.
 
-use rasterscope::viewer::ViewCommand;
 use std::path::Path;
 
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::{Command, ViewNumbers};
+use rasterscope::viewer::{Command, ViewCommand, ViewNumbers};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{

@@ -3,9 +3,10 @@
 use std::process::Command as Process;
 use std::time::Duration;
 
+use rasterscope::viewer::Command;
+
 use super::desktop::keysym;
 use super::program::{Program, flat, until, viewed};
-use rasterscope::viewer::Command;
 
 #[test]
 fn close_ends_with_success() {

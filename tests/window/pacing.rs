@@ -1,12 +1,11 @@
 //! Slow scenes in the window: previews while the view moves, the final picture when it rests, nothing else in files.
 
-use rasterscope::viewer::{PointerCommand, WindowCommand};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use rasterscope::texture::{LevelSampling, PixelSampling};
-use rasterscope::viewer::{Command, PointerButton};
+use rasterscope::viewer::{Command, PointerButton, PointerCommand, WindowCommand};
 
 use super::desktop::keysym;
 use super::life::rests;

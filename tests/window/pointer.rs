@@ -1,10 +1,9 @@
 //! The pointer: dragging, the wheel, pinning.
 
-use rasterscope::viewer::{InspectorCommand, PointerCommand, ViewCommand, WindowCommand};
 use std::time::Duration;
 
 use glam::DVec2;
-use rasterscope::viewer::Command;
+use rasterscope::viewer::{Command, InspectorCommand, PointerCommand, ViewCommand, WindowCommand};
 
 use super::desktop::keysym;
 use super::program::{Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, until, viewed};

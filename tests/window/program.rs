@@ -1,6 +1,5 @@
 //! The program in its window, and what it should show.
 
-use rasterscope::viewer::InspectorCommand;
 use std::io::Write as _;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
@@ -11,7 +10,7 @@ use rasterscope::geometry::View;
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{RenderSettings, draw};
 use rasterscope::scene::{self, DialectChoice};
-use rasterscope::viewer::{Command, Viewer, ViewerOptions};
+use rasterscope::viewer::{Command, InspectorCommand, Viewer, ViewerOptions};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{
     CONFIGURE_NOTIFY_EVENT, ClientMessageEvent, ConfigureNotifyEvent, ConfigureWindowAux, ConnectionExt as _,

@@ -1,6 +1,5 @@
 //! The panel of a comparison: what A and B are, how they share the window, how far they are apart.
 
-use crate::viewer::AbCommand;
 use egui::{Button, DragValue, Layout, RichText, Sense, Ui, pos2, vec2};
 
 use super::compare_numbers;
@@ -8,7 +7,7 @@ use super::controls::{choice, command_button, finite, gave_up, heading, row, tip
 use super::look::CONTROL;
 use crate::color::{Colormap, ResolveSpace};
 use crate::compare::{Gain, Guess, Measure};
-use crate::viewer::{Against, Arrangement, Command, CommandSpec, Other, Toggle, Viewer, commands};
+use crate::viewer::{AbCommand, Against, Arrangement, Command, CommandSpec, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.
 const LEGEND: f32 = 12.0;

@@ -73,8 +73,9 @@ impl CardCorner {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use egui::{pos2, vec2};
+
+    use super::*;
 
     #[test]
     fn card_that_grew_is_drawn_once_more() {

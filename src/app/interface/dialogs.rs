@@ -1,6 +1,5 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
-use crate::viewer::{AbCommand, Against, WindowCommand};
 use egui::style::ScrollAnimation;
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Align2, Area, Button, Context, Id, Key, Label, Layout, Modal, Order, Rect, RichText, ScrollArea};
@@ -15,7 +14,7 @@ use super::scenes::Thumbnails;
 use super::sheet::SheetDialog;
 use super::start;
 use crate::viewer::commands::{self, GESTURES};
-use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
+use crate::viewer::{AbCommand, Action, Against, Command, CommandSpec, Dialog, Group, Viewer, WindowCommand};
 
 /// What was typed into the dialogs.
 #[derive(Debug, Default)]

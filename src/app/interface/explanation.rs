@@ -1,6 +1,5 @@
 //! Why the pinned pixel has its colour: a tree beside the picture. What the pointer is over is outlined in the scene.
 
-use crate::viewer::{ExportCommand, InspectorCommand};
 use egui::{Button, CollapsingHeader, Color32, Pos2, Rect, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::controls::{command_button, tip};
@@ -12,7 +11,7 @@ use super::report::{bring_into_sight, lines, section};
 use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint};
 use crate::render::Visualisation;
-use crate::viewer::{Arrangement, Command, Toggle, Viewer};
+use crate::viewer::{Arrangement, Command, ExportCommand, InspectorCommand, Toggle, Viewer};
 
 /// Width of the panel where no hand gave it another, in points, frame included.
 pub(super) const WIDTH: f32 = 312.0;

@@ -1,8 +1,6 @@
 //! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
 //! inset, progress.
 
-use crate::viewer::{InspectorCommand, ViewCommand, WindowCommand};
-
 use egui::{
     Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, TextStyle, Ui,
     Vec2,
@@ -17,7 +15,7 @@ use super::pin;
 use super::places::{card_area, insets, points};
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words};
-use crate::viewer::{Arrangement, Command, Other, Toggle, Viewer};
+use crate::viewer::{Arrangement, Command, InspectorCommand, Other, Toggle, ViewCommand, Viewer, WindowCommand};
 
 /// How far a pointer moves that rests no more, in points.
 const REST: f32 = 5.0;

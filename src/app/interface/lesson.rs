@@ -1,13 +1,16 @@
 //! The text of a lesson's step, beside the picture. Where there is no room for the explanation of a pixel besides, that is
 //! the panel's other page.
 
-use crate::viewer::{InspectorCommand, LessonCommand, SceneCommand, Toggle};
-use egui::text::{CCursor, LayoutJob, TextFormat};
-use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
 use std::ops::Range;
 
+use egui::text::{CCursor, LayoutJob, TextFormat};
+use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
+
 use super::controls::{choice, command_button, tip};
-use crate::viewer::{Block, Command, CommandSpec, Lesson, LessonStep, Look, Span, Viewer, commands};
+use crate::viewer::{
+    Block, Command, CommandSpec, InspectorCommand, Lesson, LessonCommand, LessonStep, Look, SceneCommand, Span, Toggle,
+    Viewer, commands,
+};
 
 /// Width of the panel, in points, frame included.
 pub(super) const WIDTH: f32 = 300.0;

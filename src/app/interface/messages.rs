@@ -209,8 +209,9 @@ fn toast(ui: &Ui, message: &Message, place: Rect, offers_folder: bool) -> (Rect,
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use egui::pos2;
+
+    use super::*;
 
     #[test]
     fn messages_go_where_nothing_is() {

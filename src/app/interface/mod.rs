@@ -57,11 +57,10 @@ mod view_numbers;
 mod waiting;
 mod widths;
 
-use crate::viewer::WindowCommand;
 use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
 use glam::DVec2;
 
-use crate::viewer::{Chrome, Command, KeyPress, PixelRect, Theme, ViewNumbers, Viewer};
+use crate::viewer::{Chrome, Command, KeyPress, PixelRect, Theme, ViewNumbers, Viewer, WindowCommand};
 use board::BoardCard;
 use compare_marks::Marks;
 use dialogs::Dialogs;
@@ -72,13 +71,14 @@ use focus::FocusPanel;
 use hovered::Hovered;
 use messages::{Messages, Taken};
 use profile::ProfileCard;
-pub(super) use report::Sections;
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
 use spectrum::SpectrumCard;
 use spectrum_wave::WaveOverPicture;
-pub(super) use widths::PanelWidths;
 use widths::SizedPanel;
+
+pub(super) use report::Sections;
+pub(super) use widths::PanelWidths;
 
 /// Width of the picture that two panels leave at least, in points.
 const LEAST_PICTURE: f32 = 160.0;

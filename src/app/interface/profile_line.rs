@@ -95,8 +95,9 @@ pub(super) fn in_points(at: DVec2, scale: f32) -> Pos2 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use glam::dvec2;
+
+    use super::*;
 
     #[test]
     fn far_lines_keep_their_slope() {

@@ -1,6 +1,5 @@
 //! The list of scenes: thumbnails under the names of their folders.
 
-use crate::viewer::SceneCommand;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::Path;
@@ -12,7 +11,7 @@ use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
 use super::controls::{command_button, heading, tip};
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, Dialog, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
+use crate::viewer::{Command, Dialog, SceneCommand, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
 
 /// Thumbnails side by side.
 const COLUMNS: usize = 3;

@@ -1,6 +1,5 @@
 //! The dialog that puts a sheet together: what differs, beside a preview of what will be saved.
 
-use crate::viewer::{SheetCommand, WindowCommand};
 use egui::{Align, Button, Checkbox, Color32, ComboBox, Context, Layout, Rect, RichText, ScrollArea, TextEdit};
 use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
@@ -11,9 +10,9 @@ use super::modal::{beside, modal};
 use super::scenes::image_of;
 use crate::figure::{Ground, PAGE_WIDTH};
 use crate::viewer::{
-    Axis, Command, CommandSpec, PanelSize, PictureSetting, SheetChange, SheetPreview, SheetSide, Viewer,
+    Axis, Command, CommandSpec, PanelSize, PictureSetting, SceneEntry, SheetChange, SheetCommand, SheetPreview,
+    SheetSide, Viewer, WindowCommand, commands, picture,
 };
-use crate::viewer::{SceneEntry, commands, picture};
 
 /// Width of the controls, in points.
 const CONTROLS: f32 = 272.0;

@@ -181,7 +181,6 @@ fn report(ui: &mut Ui, viewer: &Viewer, room: f32) {
 
 #[cfg(test)]
 mod tests {
-    use crate::viewer::{AbCommand, SceneCommand};
     use std::path::Path;
     use std::sync::Arc;
 
@@ -189,7 +188,7 @@ mod tests {
 
     use super::super::document::READINGS;
     use super::*;
-    use crate::viewer::{Command, ViewerOptions};
+    use crate::viewer::{AbCommand, Command, SceneCommand, ViewerOptions};
 
     /// Height of a part of the panel, which `lay_out` lays out.
     fn measured(mut lay_out: impl FnMut(&mut Interface, &mut Ui) -> f32) -> f32 {

@@ -95,9 +95,10 @@ fn stripes(analysis: &SpectrumAnalysis, wave: &Wave, region: Region) -> ColorIma
 
 #[cfg(test)]
 mod tests {
+    use egui::epaint::Color32 as Ink;
+
     use super::*;
     use crate::texture::MipLevel;
-    use egui::epaint::Color32 as Ink;
 
     #[test]
     fn stripes_lie_on_those_of_the_picture() {

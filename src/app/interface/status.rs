@@ -1,13 +1,11 @@
 //! The status line: the pixel under the pointer, where it lies, its colour; and what the window shows.
 
-use crate::viewer::InspectorCommand;
-use crate::viewer::WindowCommand;
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
 use super::menu;
 use crate::viewer::picture::{About, changed_words};
-use crate::viewer::{Command, CommandSpec, SceneEntry, Status, Toggle, Viewer};
+use crate::viewer::{Command, CommandSpec, InspectorCommand, SceneEntry, Status, Toggle, Viewer, WindowCommand};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;

@@ -1,11 +1,10 @@
 //! The view in numbers that can be typed or dragged.
 
-use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
 use egui::{Align, Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
 use super::controls::{command_button, finite, gave_up, row};
-use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
+use crate::viewer::{Command, SceneEntry, ViewCommand, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
 const DRAG_SPEED: f64 = 1.0;

@@ -9,7 +9,6 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-use crate::viewer::{InspectorCommand, LessonCommand, PointerCommand, SceneCommand, SheetCommand, WindowCommand};
 use std::collections::VecDeque;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -23,7 +22,10 @@ use super::overlay::{CanvasRect, Output, Overlay};
 use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, Effect, MessageKind, Modifiers, PixelRect, PointerButton, Viewer};
+use crate::viewer::{
+    Command, Effect, InspectorCommand, LessonCommand, MessageKind, Modifiers, PixelRect, PointerButton, PointerCommand,
+    SceneCommand, SheetCommand, Viewer, WindowCommand,
+};
 use damage::Damage;
 use room::{PanelRoom, Wanted};
 

@@ -1,10 +1,9 @@
 //! winit's keys as the viewer's: the character first, the key's place second.
 
-use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, ViewCommand};
 use winit::event::KeyEvent;
 use winit::keyboard::{Key as LogicalKey, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
-use crate::viewer::{Command, Key, KeyPress, Modifiers};
+use crate::viewer::{AbCommand, Command, InspectorCommand, Key, KeyPress, Modifiers, SceneCommand, ViewCommand};
 
 /// What a key event presses.
 pub(super) fn press(event: &KeyEvent, held: ModifiersState) -> KeyPress {
@@ -152,8 +151,7 @@ fn place(code: KeyCode) -> Option<Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::commands;
-    use crate::viewer::{ExportCommand, WindowCommand};
+    use crate::viewer::{ExportCommand, WindowCommand, commands};
 
     fn command(logical_key: &LogicalKey, code: KeyCode, held: ModifiersState) -> Option<Command> {
         commands::for_key(&KeyPress {

@@ -383,9 +383,10 @@ fn index(value: usize) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::raster::coverage::polygon::OutlineBuilder;
-    use glam::DVec2;
 
     #[test]
     fn plain_rows_hold_what_sorting_finds() {

@@ -1,9 +1,5 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
-use crate::viewer::{
-    AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand,
-    SheetCommand, SpectrumCommand, SpectrumPart, ViewCommand, WindowCommand,
-};
 use std::borrow::Cow;
 use std::path::PathBuf;
 
@@ -23,6 +19,10 @@ use crate::viewer::settings::picture::PictureSetting;
 use crate::viewer::settings::values::{named, number, path, pixels, point, toggle, whole};
 use crate::viewer::settings::{PixelZoom, Theme, Toggle};
 use crate::viewer::view::camera::ViewNumbers;
+use crate::viewer::{
+    AbCommand, BoardCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand,
+    SheetCommand, SpectrumCommand, SpectrumPart, ViewCommand, WindowCommand,
+};
 
 /// What may follow a command's word.
 #[derive(Clone, Copy)]

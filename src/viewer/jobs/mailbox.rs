@@ -61,8 +61,9 @@ impl<T> Clone for Mailbox<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::sync::mpsc::channel;
+
+    use super::*;
 
     #[test]
     fn mailboxes_of_services_lead_to_one_channel() {

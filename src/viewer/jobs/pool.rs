@@ -145,8 +145,9 @@ pub(in crate::viewer) fn guarded<R>(work: impl FnOnce() -> R) -> Option<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
 
     #[test]
     fn crew_completes_what_waits() {

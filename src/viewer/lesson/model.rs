@@ -1,11 +1,11 @@
 //! A lesson: its steps, and what each of them shows.
 
-use crate::viewer::lesson::markdown::Block;
 use std::fmt;
 
 use glam::DVec2;
 
 use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::lesson::markdown::Block;
 use crate::viewer::library::SceneSource;
 use crate::viewer::settings::picture::SettingChange;
 use crate::viewer::view::camera::ViewNumbers;

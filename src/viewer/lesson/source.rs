@@ -1,9 +1,9 @@
 //! Where lessons come from: the program's own, and files.
 
-use crate::viewer::lesson::parse;
 use std::path::{Path, PathBuf};
 
 use crate::viewer::lesson::model::{Lesson, LessonError};
+use crate::viewer::lesson::parse;
 use crate::viewer::settings::document;
 
 /// Starts the address of a built-in lesson.

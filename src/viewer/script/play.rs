@@ -1,6 +1,5 @@
 //! Plays a script on a stage: the viewer alone, or a whole window.
 
-use crate::viewer::{PointerCommand, WindowCommand};
 use std::io;
 use std::path::Path;
 use std::time::Duration;
@@ -10,7 +9,7 @@ use glam::DVec2;
 use super::parse::{Script, ScriptError, Step};
 use crate::figure::{Destination, save_picture};
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
+use crate::viewer::{Command, Effect, KeyPress, PointerButton, PointerCommand, Viewer, WindowCommand, commands};
 
 /// Moves of the pointer in one drag.
 const DRAG_MOVES: u32 = 4;

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::program::run;
-use crate::support::refusal::assert_refused;
-use crate::support::scenes::{at_rate, drawn};
 use rasterscope::geometry::View;
 use rasterscope::render::RenderSettings;
 use rasterscope::scene::{DialectChoice, load};
+
+use crate::support::program::run;
+use crate::support::refusal::assert_refused;
+use crate::support::scenes::{at_rate, drawn};
 
 const SCENE: &str = r##"<svg width="40" height="30"><polygon points="2,3 37,9 11,28" fill="#123456"/></svg>"##;
 

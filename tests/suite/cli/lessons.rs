@@ -1,6 +1,5 @@
 //! Lessons: walking through them by commands, and their slides.
 
-use rasterscope::viewer::{LessonCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::fs;
 use std::path::Path;
 use std::process::Command as Process;
@@ -12,7 +11,9 @@ use rasterscope::render::{LegendKey, RenderSettings, Visualisation, draw};
 use rasterscope::scene::{Dialect, DialectChoice, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
-use rasterscope::viewer::{Arrangement, BUILT_IN, Command, LessonSource, Viewer};
+use rasterscope::viewer::{
+    Arrangement, BUILT_IN, Command, LessonCommand, LessonSource, SceneCommand, ViewCommand, Viewer, WindowCommand,
+};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
 

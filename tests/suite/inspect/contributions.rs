@@ -1,6 +1,5 @@
 //! Which pixels a texel feeds: exactly those whose explanations read it.
 
-use rasterscope::viewer::{InspectorCommand, ViewCommand};
 use std::collections::HashMap;
 
 use rasterscope::geometry::View as SceneView;
@@ -10,8 +9,8 @@ use rasterscope::render::{RenderSettings, Subject};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
-use rasterscope::viewer::Command;
 use rasterscope::viewer::gallery::{SCENES, Textures};
+use rasterscope::viewer::{Command, InspectorCommand, ViewCommand};
 
 use crate::support::session::Session;
 

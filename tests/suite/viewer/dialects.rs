@@ -1,12 +1,14 @@
 //! A and B with a dialect each: the scene is read twice.
 
-use rasterscope::viewer::{AbCommand, InspectorCommand, SceneCommand, ViewCommand};
 use std::fs;
 
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{self, RenderSettings};
 use rasterscope::scene::{self, Dialect, DialectChoice};
-use rasterscope::viewer::{Against, Arrangement, Command, Other, Viewer, ViewerOptions, picture};
+use rasterscope::viewer::{
+    AbCommand, Against, Arrangement, Command, InspectorCommand, Other, SceneCommand, ViewCommand, Viewer,
+    ViewerOptions, picture,
+};
 
 use crate::support::session::{Session, set};
 

@@ -1,7 +1,5 @@
 //! Any commands in any order: no panic, no hang, and the frame shows the state.
 
-use rasterscope::viewer::{BoardCommand, ViewCommand, WindowCommand};
-use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, ProfileCommand, SceneCommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -11,7 +9,10 @@ use std::time::Duration;
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DVec2, dvec2};
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::{Command, PixelRect, PointerButton, ViewNumbers, Viewer, ViewerOptions, commands};
+use rasterscope::viewer::{
+    BoardCommand, Command, ExportCommand, InspectorCommand, PixelRect, PointerButton, PointerCommand, ProfileCommand,
+    SceneCommand, ViewCommand, ViewNumbers, Viewer, ViewerOptions, WindowCommand, commands,
+};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES, step};
 

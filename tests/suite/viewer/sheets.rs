@@ -1,11 +1,11 @@
 //! Sheets that are put together in the window: they are what their command line makes.
 
-use rasterscope::viewer::{SceneCommand, SheetCommand};
 use std::path::{Path, PathBuf};
 
 use rasterscope::figure::Record;
 use rasterscope::viewer::{
-    Axis, Command, Dialog, MessageKind, PanelSize, SheetChange, SheetSide, Viewer, ViewerOptions, commands,
+    Axis, Command, Dialog, MessageKind, PanelSize, SceneCommand, SheetChange, SheetCommand, SheetSide, Viewer,
+    ViewerOptions, commands,
 };
 
 use crate::support::folder::names;

@@ -1,6 +1,5 @@
 //! What a hand does that has nothing but a mouse: what it clicks is explained, and what it opens it can close.
 
-use crate::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use egui::{pos2, vec2};
@@ -9,7 +8,7 @@ use glam::{DVec2, dvec2};
 use super::hands::{click_on, comparing, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, Toggle};
+use crate::viewer::{AbCommand, Arrangement, InspectorCommand, Toggle, ViewCommand, WindowCommand};
 
 /// What closes the explanation.
 const CLOSE: &str = "Explanation";

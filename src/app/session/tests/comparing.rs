@@ -6,7 +6,6 @@
     reason = "inside the window"
 )]
 
-use crate::viewer::{AbCommand, Against, InspectorCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use egui::accesskit::Toggled;
@@ -17,7 +16,9 @@ use super::*;
 use crate::color::ResolveSpace;
 use crate::render::Visualisation;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, Toggle};
+use crate::viewer::{
+    AbCommand, Against, Arrangement, InspectorCommand, SceneCommand, Toggle, ViewCommand, WindowCommand,
+};
 
 /// The windows that a hand goes through.
 pub(super) const WINDOWS: [[u32; 2]; 4] = [[800, 600], [1280, 800], [1366, 768], [1920, 1080]];

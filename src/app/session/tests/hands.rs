@@ -1,7 +1,6 @@
 //! What a hand does to the panels, and what an eye finds there: controls are looked up by the names that screen readers
 //! are told, so that no test knows where they lie.
 
-use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
 use std::path::PathBuf;
 
 use egui::accesskit::Node;
@@ -9,8 +8,7 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Toggle, ViewerOptions};
-use crate::viewer::{Dialog, KeyPress};
+use crate::viewer::{AbCommand, Against, Dialog, InspectorCommand, KeyPress, Toggle, ViewerOptions, WindowCommand};
 
 /// A session at rest on these files, or on the gallery.
 pub(super) fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {

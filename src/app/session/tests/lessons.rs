@@ -1,13 +1,16 @@
 //! A lesson walked through by mouse: what its text speaks of can be reached, in small windows too.
 
-use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand, ViewCommand, WindowCommand};
-use glam::dvec2;
 use std::path::PathBuf;
+
+use glam::dvec2;
 
 use super::hands::{click_on, key, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Arrangement, InterfaceScale, LessonSource, PixelZoom, Toggle};
+use crate::viewer::{
+    AbCommand, Against, Arrangement, InspectorCommand, InterfaceScale, LessonCommand, LessonSource, PixelZoom,
+    SceneCommand, Toggle, ViewCommand, WindowCommand,
+};
 
 /// What opens the explanation where it is a page of the lesson's panel, and what opens the text.
 const PAGES: [&str; 2] = ["Page: Why this colour", "Page: Text"];

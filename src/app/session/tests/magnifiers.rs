@@ -2,15 +2,13 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "inside the window")]
 
-use crate::viewer::{AbCommand, Against, InspectorCommand};
-
 use glam::{DVec2, dvec2};
 
 use super::comparing::{CLOSE, WINDOWS, side_by_side};
 use super::hands::{click_on, comparing, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, Toggle};
+use crate::viewer::{AbCommand, Against, Arrangement, InspectorCommand, Toggle};
 
 #[test]
 fn magnifiers_lie_beside_both_pictures() {

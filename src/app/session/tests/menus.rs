@@ -2,14 +2,16 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "points of a window")]
 
-use crate::viewer::{Action, CommandSpec, Group, InspectorCommand, ViewCommand, WindowCommand, commands};
 use egui::accesskit::{Node, Toggled};
 use glam::{DVec2, dvec2};
 
 use super::hands::{click, click_on, key, nodes, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, Arrangement, Dialog, Toggle, ViewNumbers, picture};
+use crate::viewer::{
+    AbCommand, Action, Against, Arrangement, CommandSpec, Dialog, Group, InspectorCommand, Toggle, ViewCommand,
+    ViewNumbers, WindowCommand, commands, picture,
+};
 
 /// The names of everything that can be pressed.
 fn names(session: &mut Session) -> Vec<String> {

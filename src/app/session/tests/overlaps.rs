@@ -3,8 +3,6 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "inside the window")]
 
-use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, ViewCommand, WindowCommand};
-
 use egui::{pos2, vec2};
 use glam::dvec2;
 
@@ -13,7 +11,10 @@ use super::lessons::at_step;
 use super::*;
 use crate::viewer::picture::SettingChange;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, Dialog, InterfaceScale, MessageKind, NO_ROOM, Toggle};
+use crate::viewer::{
+    AbCommand, Arrangement, Dialog, ExportCommand, InspectorCommand, InterfaceScale, MessageKind, NO_ROOM, Toggle,
+    ViewCommand, WindowCommand,
+};
 
 /// Everything over the picture, by name.
 fn things(session: &Session) -> Vec<(&'static str, Rect)> {

@@ -1,6 +1,5 @@
 //! What a surface shows after any number of partial updates, and how much of it is written.
 
-use crate::viewer::{InspectorCommand, ViewCommand};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,9 +7,8 @@ use egui::pos2;
 use glam::DVec2;
 
 use super::*;
-use crate::viewer::ViewerOptions;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Key, KeyPress};
+use crate::viewer::{InspectorCommand, Key, KeyPress, ViewCommand, ViewerOptions};
 
 /// A session on a scene of the gallery, and a surface that its window shows.
 struct Desk {

@@ -1,13 +1,11 @@
 //! The list of scenes under a hand: nothing moves under the pointer, whatever the next scene has to say.
 
-use crate::viewer::{AbCommand, LessonCommand, LessonSource, SceneCommand, WindowCommand};
-
 use glam::{DVec2, dvec2};
 
 use super::hands::{click, click_on, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Toggle};
+use crate::viewer::{AbCommand, Against, LessonCommand, LessonSource, SceneCommand, Toggle, WindowCommand};
 
 /// A folder of scenes: one that is read in two ways, one that is plain, one with notes, one that cannot be read.
 fn folder() -> tempfile::TempDir {

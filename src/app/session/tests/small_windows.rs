@@ -1,7 +1,6 @@
 //! What stays in reach of the mouse where there is little room: panels make way for each other and for the pinned pixel,
 //! and controls stay under the pointer that clicks them.
 
-use crate::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use std::collections::BTreeMap;
 
 use egui::accesskit::{Node, Rect};
@@ -10,9 +9,8 @@ use glam::{DVec2, dvec2};
 use super::hands::{click, click_on, comparing, key, nodes, place_of, right_click, says, session};
 use super::*;
 use crate::render::Visualisation;
-use crate::viewer::Dialog;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Arrangement, Toggle};
+use crate::viewer::{AbCommand, Against, Arrangement, Dialog, InspectorCommand, Toggle, ViewCommand, WindowCommand};
 
 /// Width of the side panel and of that of a comparison.
 const PANEL: f64 = 264.0;

@@ -1,19 +1,18 @@
 //! What the window shows of both, and what keys and the mouse do to it.
 
-use rasterscope::viewer::{
-    AbCommand, ExportCommand, InspectorCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand,
-};
 use std::time::Instant;
 
 use glam::dvec2;
 use rasterscope::compare::{DifferenceStyle, Gain, Measure, Pair};
 use rasterscope::raster::Framebuffer;
 use rasterscope::texture::PixelSampling;
-use rasterscope::viewer::{Arrangement, Command, Effect, PixelRect, PixelZoom, PointerButton, Toggle};
-
-use crate::support::session::{Session, TRIANGLES};
+use rasterscope::viewer::{
+    AbCommand, Arrangement, Command, Effect, ExportCommand, InspectorCommand, PixelRect, PixelZoom, PointerButton,
+    PointerCommand, SceneCommand, Toggle, ViewCommand, WindowCommand,
+};
 
 use super::{WINDOW, frames, sixteen_against_one};
+use crate::support::session::{Session, TRIANGLES};
 
 #[test]
 fn comparison_swaps_settings_and_frames() {

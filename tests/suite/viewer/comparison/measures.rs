@@ -1,17 +1,17 @@
 //! The numbers of a comparison, and the way from difference to difference.
 
-use rasterscope::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use std::time::{Duration, Instant};
 
 use glam::dvec2;
 use rasterscope::compare::{DifferencePaint, Measure, Pair};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{self, CancelToken};
-use rasterscope::viewer::{Against, Arrangement, Command, PixelRect, Toggle};
-
-use crate::support::session::{Session, set, step};
+use rasterscope::viewer::{
+    AbCommand, Against, Arrangement, Command, InspectorCommand, PixelRect, Toggle, ViewCommand, WindowCommand,
+};
 
 use super::{WINDOW, frames, sixteen_against_one};
+use crate::support::session::{Session, set, step};
 
 #[test]
 fn comparison_draws_the_parts_that_changed() {

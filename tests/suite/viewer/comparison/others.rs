@@ -1,6 +1,5 @@
 //! A against something else than a second set of settings: the truth, a picture from outside; and what a script says of it.
 
-use rasterscope::viewer::{AbCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use glam::dvec2;
@@ -12,11 +11,13 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{self, RenderSettings};
 use rasterscope::texture::PixelSampling;
 use rasterscope::viewer::script::{Script, ViewerStage, play};
-use rasterscope::viewer::{Against, Arrangement, Command, MessageKind, Other};
-
-use crate::support::session::{Session, TRIANGLES, set, step};
+use rasterscope::viewer::{
+    AbCommand, Against, Arrangement, Command, MessageKind, Other, PointerCommand, SceneCommand, ViewCommand,
+    WindowCommand,
+};
 
 use super::{WINDOW, frames};
+use crate::support::session::{Session, TRIANGLES, set, step};
 
 #[test]
 fn comparison_without_a_window_or_a_scene_ends() {

@@ -30,7 +30,7 @@ pub const GRAMMAR: Grammar = Grammar {
 fn read_sheet(words: &[String]) -> Result<SheetRequest, String> {
     match verb_of(words)? {
         Verb::Sheet(options) => super::sheet::request(&options),
-        _ => Err("this is no sheet".to_owned()),
+        _ => Err("this is not a sheet".to_owned()),
     }
 }
 

@@ -185,7 +185,7 @@ impl Guard {
         let refused = |why: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, why));
         if path == Path::new("-") {
             return refused(
-                "`-` is no file, and nothing goes to standard output instead of one; ./- is a file of that name",
+                "`-` is not a file, and nothing goes to standard output instead of one; ./- is a file of that name",
             );
         }
         let about = match std::fs::metadata(path) {
@@ -195,7 +195,7 @@ impl Guard {
             Err(_) => return Ok(path.to_owned()),
         };
         if !about.is_file() {
-            return refused("there is something of that name that is no file");
+            return refused("there is something of that name that is not a file");
         }
         let target = std::fs::canonicalize(path)?;
         if self.is_read(&target) {
@@ -302,7 +302,7 @@ fn keeps_all(file: &NewFile) -> bool {
 /// Writes the bytes under a name beside `target` that nothing had.
 fn write_partial(target: &Path, bytes: &[u8]) -> io::Result<PathBuf> {
     if target.file_name().is_none() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this is no file name"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this is not a file name"));
     }
     let id = std::process::id();
     for attempt in 1..=ATTEMPTS {

@@ -129,7 +129,7 @@ impl Record {
     pub fn of_file(path: &Path) -> Result<Option<Self>, RecordError> {
         // The kind is asked before opening, because opening a pipe would wait for a writer.
         if !std::fs::metadata(path)?.is_file() {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no file").into());
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a file").into());
         }
         Self::read(&mut BufReader::new(File::open(path)?))
     }

@@ -292,7 +292,7 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
             numbers::leading(name, text).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)))?;
         if number.is_none() {
             self.builder
-                .warn(node, format!("{name}=\"{}\" is no number; 0 is taken", quote(text)));
+                .warn(node, format!("{name}=\"{}\" is not a number; 0 is taken", quote(text)));
         }
         Ok(number.unwrap_or(0.0).into())
     }

@@ -337,7 +337,7 @@ fn is_elsewhere(address: &str) -> bool {
 
 /// The bytes in a `data:` address.
 fn embedded(address: &str) -> Result<Vec<u8>, String> {
-    let url = DataUrl::process(address).map_err(|_| "this is no data: address".to_owned())?;
+    let url = DataUrl::process(address).map_err(|_| "this is not a data: address".to_owned())?;
     let (bytes, _) = url
         .decode_to_vec()
         .map_err(|_| "the base64 text is damaged".to_owned())?;

@@ -197,7 +197,7 @@ impl Remembered {
 /// The file's text, unless it is larger than ours ever are.
 fn text_of(file: &Path) -> io::Result<String> {
     if !fs::metadata(file)?.is_file() {
-        return Err(io::Error::other("it is no file"));
+        return Err(io::Error::other("it is not a file"));
     }
     let mut text = String::new();
     fs::File::open(file)?.take(MOST_BYTES + 1).read_to_string(&mut text)?;

@@ -62,7 +62,7 @@ pub(super) fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Resu
     if options.plot.is_none() && !options.force && is_of_another_command(&chart) {
         let chart = chart.display();
         return Err(Failure::input(format!(
-            "{chart}: this picture is no chart of a sweep, and would be lost; choose another place with --plot, or --force \
+            "{chart}: this picture is not a chart of a sweep, and would be lost; choose another place with --plot, or --force \
              replaces it"
         )));
     }

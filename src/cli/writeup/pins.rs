@@ -190,7 +190,10 @@ fn line_of(text: &str, byte: usize) -> usize {
 fn text_of(path: &Path) -> io::Result<String> {
     let about = std::fs::metadata(path)?;
     if !about.is_file() || about.len() > MAX_BYTES {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no small text file"));
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "it is not a small text file",
+        ));
     }
     std::fs::read_to_string(path)
 }

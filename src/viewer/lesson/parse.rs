@@ -95,7 +95,10 @@ fn lesson(table: &DeTable<'_>, folder: Option<&Path>) -> Found<Lesson> {
 
 fn steps(value: &Value<'_>, folder: Option<&Path>) -> Found<Vec<LessonStep>> {
     let Some(tables) = value.get_ref().as_array() else {
-        return mistake(value.span(), "`step` is no list of tables; write `[[step]]` above each");
+        return mistake(
+            value.span(),
+            "`step` is not a list of tables; write `[[step]]` above each",
+        );
     };
     let mut steps: Vec<LessonStep> = Vec::new();
     for value in tables {

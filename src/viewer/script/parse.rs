@@ -222,13 +222,13 @@ fn unquoted(text: &str) -> &str {
 
 fn parse_key(name: &str) -> Result<KeyPress, String> {
     KeyPress::from_name(name)
-        .ok_or_else(|| format!("\"{name}\" is no key; write one such as =, Ctrl+Shift+S, PageUp or F5"))
+        .ok_or_else(|| format!("\"{name}\" is not a key; write one such as =, Ctrl+Shift+S, PageUp or F5"))
 }
 
 fn parse_command(word: &str, rest: &str) -> Result<Command, String> {
     let Some(spec) = commands::find(word) else {
         return Err(format!(
-            "\"{word}\" is no step; write {WORDS}, or the name of a command such as rate, pin or reset-view"
+            "\"{word}\" is not a step; write {WORDS}, or the name of a command such as rate, pin or reset-view"
         ));
     };
     if rest.is_empty()

@@ -57,7 +57,7 @@ pub(in crate::viewer) fn read(path: &Path, most: u64, cure: &str) -> Result<Stri
     let unreadable = |error: std::io::Error| format!("cannot be read: {error}; {cure}");
     // A pipe would be waited for.
     if !fs::metadata(path).map_err(unreadable)?.is_file() {
-        return Err(format!("is no file; {cure}"));
+        return Err(format!("is not a file; {cure}"));
     }
     let mut bytes = Vec::new();
     let file = fs::File::open(path).map_err(unreadable)?;
@@ -67,5 +67,5 @@ pub(in crate::viewer) fn read(path: &Path, most: u64, cure: &str) -> Result<Stri
     if bytes.len() as u64 > most << 10 {
         return Err(format!("is larger than {most} KiB; {cure}"));
     }
-    String::from_utf8(bytes).map_err(|_| "is no text in UTF-8; save it in that encoding".to_owned())
+    String::from_utf8(bytes).map_err(|_| "is not text in UTF-8; save it in that encoding".to_owned())
 }

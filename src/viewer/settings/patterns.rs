@@ -186,7 +186,10 @@ fn pattern(table: &DeTable<'_>) -> Found<&'static CustomPattern> {
         return mistake(0..0, "no samples; add `samples = [ { x = 0.5, y = 0.5 } ]`");
     };
     let Some(list) = samples.get_ref().as_array() else {
-        return mistake(samples.span(), "`samples` is no list; write `[ { x = 0.5, y = 0.5 } ]`");
+        return mistake(
+            samples.span(),
+            "`samples` is not a list; write `[ { x = 0.5, y = 0.5 } ]`",
+        );
     };
     let read: Found<Vec<CustomSample>> = list.iter().map(|value| sample(value, grid)).collect();
     let words = CustomWords {
@@ -347,13 +350,13 @@ mod tests {
             ("name = 3", "f:1:8: not a string"),
             ("name = \"a\"", "no samples"),
             ("samples = []", "no name"),
-            ("name = \"\"\nsamples = [{ x = 0, y = 0 }]", "\"\" is no name"),
-            ("name = \"a b\"\nsamples = [{ x = 0, y = 0 }]", "\"a b\" is no name"),
+            ("name = \"\"\nsamples = [{ x = 0, y = 0 }]", "\"\" is not a name"),
+            ("name = \"a b\"\nsamples = [{ x = 0, y = 0 }]", "\"a b\" is not a name"),
             (
                 "name = \"a\"\nsamples = []",
                 "f:2:11: 0 samples; a pattern has 1 to 256",
             ),
-            ("name = \"a\"\nsamples = 3", "no list"),
+            ("name = \"a\"\nsamples = 3", "not a list"),
             ("name = \"a\"\nsamples = [1]", "a sample is a table"),
             ("name = \"a\"\nsamples = [{ x = 1, y = 0 }]", "f:2:18: not a place"),
             ("name = \"a\"\nsamples = [{ x = nan, y = 0 }]", "not a place"),

@@ -93,7 +93,7 @@ pub(in crate::viewer) fn changes(text: &str) -> Result<Vec<SettingChange>, Strin
             SettingChange::of(option_meant(name), value).map_err(|problem| format!("{name}: {problem}"))
         }
         None => Err(format!(
-            "\"{}\" is no setting with its value, such as sample-rate 16",
+            "\"{}\" is not a setting with its value, such as sample-rate 16",
             part.trim()
         )),
     };

@@ -212,7 +212,7 @@ fn board_refuses_what_makes_no_sense() {
     let many: Vec<&str> = many.iter().map(String::as_str).collect();
     for (options, told) in [
         (&[][..], "--vary pattern"),
-        (&["--with=foo"], "no setting"),
+        (&["--with=foo"], "is not a setting"),
         (&["--with=pattern poisson"], "poisson"),
         (&["--with=A", "--with=sample-rate 1"], "already"),
         (&["--with=sample-rate 5"], "square"),

@@ -130,7 +130,7 @@ fn cli_pattern_files_at_fault_are_told_with_place_and_cure() {
     }
     refused(
         b"name = \"\xff\xfe\"",
-        &["--pattern: p.toml: is no text in UTF-8; save it in that encoding"],
+        &["--pattern: p.toml: is not text in UTF-8; save it in that encoding"],
     );
 }
 

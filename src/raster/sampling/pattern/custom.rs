@@ -45,7 +45,7 @@ pub struct CustomPattern {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CustomPatternError {
     /// The name is none.
-    #[error("\"{0}\" is no name of a pattern; take up to 32 letters, digits and hyphens, a letter first")]
+    #[error("\"{0}\" is not a name for a pattern; take up to 32 letters, digits and hyphens, a letter first")]
     Name(String),
     /// There are no samples, or too many.
     #[error("{0} samples; a pattern has 1 to 256, each counted as often as its weight says")]

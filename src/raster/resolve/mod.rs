@@ -109,7 +109,7 @@ impl FilterRadius {
     /// The greatest.
     pub const MAX: f64 = 4.0;
 
-    /// So many pixels, to the nearest hundredth; `None` unless that is 0.5 to 4.
+    /// So many pixels, to the nearest hundredth; `None` unless `pixels` is 0.5 to 4, before it is rounded.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(widest.margin(), SizedFilter::MOST_MARGIN, "the widest");
         let wide_box = ResolveFilter::Box.sized(FilterRadius::new(1.0));
         assert!(!wide_box.is_plain() && wide_box.margin() == 1, "a box of two pixels");
-        for wrong in [0.0, 0.49, 4.01, -1.0, f64::NAN] {
+        for wrong in [0.0, 0.49, 0.496, 4.004, 4.01, -1.0, f64::NAN] {
             assert_eq!(FilterRadius::new(wrong), None, "{wrong}");
         }
     }

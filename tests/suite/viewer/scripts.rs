@@ -1,6 +1,6 @@
 //! Scripted sessions without a window.
 
-use rasterscope::viewer::script::{Script, ViewerStage, play};
+use rasterscope::viewer::script::{Script, Step, ViewerStage, play};
 
 use crate::support::session::{Session, TRIANGLES};
 
@@ -47,6 +47,26 @@ fn script_plays_like_a_hand() {
         .enumerate_pixels()
         .all(|(x, y, pixel)| window.rgba(x, y) == Some(pixel.0));
     assert!(same, "frame and inset");
+}
+
+/// The page of scripts shows steps that scripts understand, and says how to quote.
+#[test]
+fn script_page_is_understood() {
+    let page = include_str!("../../../src/cli/help/scripts.md");
+    let block = page.split("```").nth(1).expect("examples");
+    let examples = block.lines().skip(1).map(|line| line.split("   ").next().unwrap());
+    let count: usize = examples
+        .map(|steps| Script::parse(steps, "page").unwrap().steps.len())
+        .sum();
+    assert!(count > 15, "{count} steps");
+    for text in ["a;b", "a\nb", " a "] {
+        let script = Script::parse(&format!("type \"{text}\""), "quoted").unwrap();
+        let steps: Vec<&Step> = script.steps.iter().map(|step| &step.step).collect();
+        assert_eq!(steps, [&Step::Type(text.to_owned())], "{text:?} in quotes");
+        let bare = Script::parse(&format!("type {text}"), "bare");
+        let is_same = bare.is_ok_and(|bare| bare.steps == script.steps);
+        assert!(!is_same, "{text:?} without quotes");
+    }
 }
 
 #[test]

@@ -13,7 +13,7 @@ pub(in crate::cli) struct InspectOptions {
     /// Column and row of the pixel, from 0
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub(in crate::cli) pixel: PixelPlace,
-    /// The sample that is told in full of every primitive, from 1 [default: the most telling one]
+    /// The sample whose data are printed in full for every primitive, from 1 [default: the most telling one]
     #[arg(long, value_name = "K")]
     pub(in crate::cli) sample: Option<u32>,
     /// Print JSON instead of text: everything about every sample

@@ -17,7 +17,7 @@ pub(in crate::cli) struct PatternOptions {
     /// Which places samples have where chance decides about them: 0 to 65535
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = whole::<u16>(0..=65_535))]
     pub(in crate::cli) seed: u16,
-    /// Column and row of the pixel, from 0, whose samples are told
+    /// Column and row of the pixel, from 0, whose samples are listed
     #[arg(long, default_value = "0,0", value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub(in crate::cli) pixel: PixelPlace,
     /// Print JSON instead of text, with the places of all samples and the power of their frequencies

@@ -24,7 +24,7 @@ pub(in crate::cli) struct SpectrumOptions {
     /// A picture of the spectrum to write, with axes and the box of frequencies that pixels can show
     #[arg(short, long, value_name = "OUT.png")]
     pub(in crate::cli) output: Option<PathBuf>,
-    /// How many of the strongest waves are told
+    /// How many of the strongest waves are listed
     #[arg(long, default_value_t = 8, value_name = "N", value_parser = whole::<u16>(1..=1000))]
     pub(in crate::cli) peaks: u16,
     /// A table of them to write

@@ -330,7 +330,7 @@ mod tests {
     /// A triangle of mixed colours and one with a texture, neither of them symmetric.
     fn scene() -> Scene {
         let mut scene = Scene::empty(DVec2::new(64.0, 48.0), Dialect::Svg);
-        scene.textures = vec![Arc::new(Texture::missing("checker"))];
+        scene.textures = Arc::new([Arc::new(Texture::missing("checker"))]);
         let triangle = |points: [[f64; 2]; 3], paint| Primitive {
             shape: ShapeId(0),
             kind: PrimitiveKind::Triangle {

@@ -1,6 +1,5 @@
 //! The scene while it grows: shapes, primitives, textures and report, with their ceilings.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,7 +17,6 @@ use super::{
 };
 use crate::color::Rgba;
 use crate::geometry::{CurvedArea, FillRule, Polygon};
-use crate::texture::Texture;
 
 /// Most primitives of a scene, about 400 MB.
 const MAX_PRIMITIVES: usize = 4_000_000;
@@ -368,7 +366,7 @@ impl<'doc> Builder<'doc> {
         }
         let textures = self.textures.load(&mut self.report);
         if !textures.is_empty() {
-            hand_down(&mut self.patterns, &textures);
+            tiles::hand_down(&mut self.patterns, &textures);
         }
         Scene {
             name: Arc::default(),
@@ -456,21 +454,6 @@ pub(super) struct Area<'a> {
     pub(super) rule: FillRule,
     /// The shape's own coordinates to user space.
     pub(super) to_user: DAffine2,
-}
-
-/// Gives the textures of a scene to the tiles of its patterns too.
-fn hand_down(patterns: &mut [Pattern], textures: &[Arc<Texture>]) {
-    let mut done: HashMap<*const Scene, Arc<Scene>> = HashMap::new();
-    for pattern in patterns {
-        let key = Arc::as_ptr(&pattern.tile);
-        let tile = done.entry(key).or_insert_with(|| {
-            let mut tile = Scene::clone(&pattern.tile);
-            tile.textures = textures.to_vec();
-            hand_down(&mut tile.patterns, textures);
-            Arc::new(tile)
-        });
-        pattern.tile = Arc::clone(tile);
-    }
 }
 
 /// Whether both coordinates are within the range of 32-bit floats, which also says that they are finite.

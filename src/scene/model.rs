@@ -36,8 +36,8 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// What to paint, first to last.
     pub primitives: Vec<Primitive>,
-    /// What [`Paint::Texture`] points to.
-    pub textures: Vec<Arc<Texture>>,
+    /// What [`Paint::Texture`] points to; the tiles of patterns share it with the scene that they are in.
+    pub textures: Arc<[Arc<Texture>]>,
     /// What [`Fill::Gradient`] points to.
     pub gradients: Vec<Gradient>,
     /// What [`Fill::Pattern`] points to.
@@ -62,7 +62,7 @@ impl Scene {
             words: None,
             shapes: Vec::new(),
             primitives: Vec::new(),
-            textures: Vec::new(),
+            textures: Arc::default(),
             gradients: Vec::new(),
             patterns: Vec::new(),
             report: Report::default(),

@@ -171,7 +171,7 @@ impl<'doc> TextureTable<'doc> {
     }
 
     /// Decodes everything. What fails becomes the checker of [`Texture::missing`] and a warning.
-    pub(super) fn load(self, report: &mut Report) -> Vec<Arc<Texture>> {
+    pub(super) fn load(self, report: &mut Report) -> Arc<[Arc<Texture>]> {
         let alpha = self.alpha;
         let (places, files): (Vec<_>, Vec<_>) = self
             .entries
@@ -212,7 +212,7 @@ impl<'doc> TextureTable<'doc> {
                 textures.push(Arc::new(texture.asking(asks)));
             }
         }
-        textures
+        textures.into()
     }
 
     /// The image, if it fits what is left of the ceilings.

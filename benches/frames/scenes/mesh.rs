@@ -164,7 +164,7 @@ struct Mesh(MeshScene);
 impl Mesh {
     fn new(name: &'static str, size: [u32; 2], texture: &Arc<Texture>) -> Self {
         let mut scene = Scene::empty(canvas(size), Dialect::Svg);
-        scene.textures.push(Arc::clone(texture));
+        scene.textures = Arc::new([Arc::clone(texture)]);
         Self(MeshScene { name, scene })
     }
 

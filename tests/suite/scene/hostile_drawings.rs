@@ -1,5 +1,6 @@
 //! Drawings made to take time or memory: each ends as a picture, or in one line, soon.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use rasterscope::scene::DialectChoice;
@@ -176,6 +177,35 @@ fn large_tiles_are_told_where_they_have_no_room_together() {
         "{}",
         told(100)
     );
+}
+
+/// Thousands of textures times a hundred thousand tiles would be gigabytes, if each tile had a list of its own.
+#[test]
+fn tiles_share_the_textures_of_the_scene() {
+    const PIXEL: &str =
+        "base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+    let image = |i: usize| format!("<image width='1' height='1' href='data:image/png;n={i};{PIXEL}'/>");
+    let tile = |i: usize| {
+        format!(
+            "<pattern id='p{i}' width='1' height='1' patternUnits='userSpaceOnUse'><rect width='1' height='1' fill='url(#inner)'/></pattern>\
+             <rect width='9' height='9' fill='url(#p{i})'/><rect width='9' height='9' fill='url(#p{i})' opacity='.5'/>"
+        )
+    };
+    let images: String = (0..64).map(image).collect();
+    let tiles: String = (0..500).map(tile).collect();
+    let inner = format!("<pattern id='inner' width='1' height='1' patternUnits='userSpaceOnUse'>{images}</pattern>");
+    let document = svg("width='100' height='100'", &format!("{inner}{tiles}"));
+    let scene = try_read(document.as_bytes(), DialectChoice::Svg).expect("a document");
+    assert_eq!((scene.textures.len(), scene.patterns.len()), (64, 1000));
+    for pattern in &scene.patterns {
+        let [inside] = pattern.tile.patterns.as_slice() else {
+            panic!("a pattern in the tile: {:?}", pattern.tile.patterns.len());
+        };
+        assert!(Arc::ptr_eq(&pattern.tile.textures, &scene.textures), "one list");
+        assert!(Arc::ptr_eq(&inside.tile.textures, &scene.textures), "inside too");
+    }
+    let [half, whole] = [&scene.patterns[0], &scene.patterns[1]].map(|pattern| Arc::as_ptr(&pattern.tile));
+    assert_eq!(half, whole, "patterns that had one tile still do");
 }
 
 #[test]

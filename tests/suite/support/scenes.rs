@@ -222,10 +222,10 @@ pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Resul
     }));
     let mut scene = scene(f64::from(side), kinds);
     scene.gradients = vec![gradient(u, side, fills)?, gradient(u, side, fills)?];
-    scene.textures = vec![
+    scene.textures = Arc::new([
         Arc::new(busy_texture(16, 16, fills != Fills::Flat)),
         Arc::new(busy_texture(9, 5, false)),
-    ];
+    ]);
     Ok(scene)
 }
 

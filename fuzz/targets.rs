@@ -8,18 +8,15 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use rasterscope::cli::{GRAMMAR, check_pins};
-use rasterscope::color::ResolveSpace;
 use rasterscope::figure::Record;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Detail, Explanation, Question};
-use rasterscope::post::PostProcess;
-use rasterscope::raster::{CustomPattern, Framebuffer, PixelCoverage, SamplePattern, SampleRate};
-use rasterscope::render::{self, RenderSettings, Subject};
-use rasterscope::rules::Rules;
+use rasterscope::raster::{CustomPattern, Framebuffer};
+use rasterscope::render::{self, RenderSettings, Subject, Visualisation};
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions, Scene};
-use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling, Texture, Wrap};
+use rasterscope::texture::Texture;
 use rasterscope::viewer::script::Script;
-use rasterscope::viewer::{Lesson, patterns};
+use rasterscope::viewer::{Lesson, Settings, patterns, picture};
 
 /// Width and height of the pictures that are drawn, in pixels.
 const SIZE: [u32; 2] = [24, 20];
@@ -120,8 +117,19 @@ pub(crate) fn scene(bytes: &[u8]) {
 
 fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
     let view = View::Default.transform(scene.canvas, SIZE);
-    let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
-    render::draw(scene, &view, settings, &mut frame);
+    let draw = |settings: &RenderSettings| {
+        let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+        render::draw(scene, &view, settings, &mut frame);
+        frame
+    };
+    let mut frame = draw(settings);
+    // It is the picture that is explained, whatever the settings show instead.
+    if settings.visualisation != Visualisation::Color {
+        frame = draw(&RenderSettings {
+            visualisation: Visualisation::Color,
+            ..*settings
+        });
+    }
     let subject = Subject {
         scene,
         view: &view,
@@ -255,21 +263,16 @@ impl Choices {
         choices[self.below(count) as usize]
     }
 
+    /// One of the few values of every setting in the table, so that a new setting is tried without a word here.
     fn settings(&mut self) -> RenderSettings {
-        let rate = self.among(&[1, 4, 9, 16]);
-        let taps = self.among(&[1, 2, 16]);
-        RenderSettings {
-            sample_rate: SampleRate::new(rate).expect("a square number"),
-            pattern: self.among(SamplePattern::ALL.as_slice()),
-            pixel_sampling: self.among(&PixelSampling::ALL),
-            texture_wrap: self.among(&Wrap::ALL),
-            level_sampling: self.among(&LevelSampling::ALL),
-            anisotropy: Anisotropy::new(taps).expect("a number of taps"),
-            rules: self.among(Rules::ALL.as_slice()),
-            resolve: self.among(&[ResolveSpace::Stored, ResolveSpace::Linear]),
-            post_process: self.among(&PostProcess::ALL),
-            coverage: self.among(&PixelCoverage::ALL),
-            ..RenderSettings::default()
+        let mut settings = Settings::default();
+        for setting in picture::all() {
+            let value = self.among(&setting.some_values());
+            let change = setting
+                .to(value)
+                .unwrap_or_else(|problem| panic!("{}: {problem}", setting.option));
+            change.apply(&mut settings);
         }
+        settings.render
     }
 }

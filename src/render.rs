@@ -29,7 +29,7 @@ use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, Py
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
 use parts::chunks;
-pub use regions::{Subject, draw_regions, draw_resolved, refine};
+pub use regions::{Subject, draw_regions, refine, resolved_part};
 pub use replay::{Explainer, MissedPrimitive, Neighbourhood, OpenSample, replay};
 use screen::Screen;
 pub use smoothed::widened;

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::numbers::{hex, significant};
 use crate::post::{self, FACTOR, Form, Neighbour, Pattern, SideTrace, THRESHOLD, Trace};
-use crate::raster::{Framebuffer, Region};
-use crate::render::{CancelToken, RenderSettings, Subject, Visualisation, draw_resolved, widened};
+use crate::raster::Region;
+use crate::render::{RenderSettings, Subject, Visualisation, resolved_part, widened};
 
 /// What was done to the finished pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -77,10 +77,8 @@ pub(super) fn smoothing(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2])
         height: 1,
     };
     let around = widened(own, size);
-    let mut frame = Framebuffer::new(size[0], size[1]);
-    draw_resolved(&subject, &mut frame, &[around], &CancelToken::default())?;
     let at = [x.checked_sub(around.x)?, y.checked_sub(around.y)?];
-    let part = frame.cut(around);
+    let part = resolved_part(&subject, size, around);
     let trace = post::trace(part.pixels(), [around.width, around.height], at, values)?;
     Some(Smoothing::new(&trace, settings.post_process.name()))
 }

@@ -36,8 +36,25 @@ pub fn draw_regions(
     draw_resolved(subject, frame, regions, cancel)
 }
 
-/// As [`draw_regions`], but leaves pixels as the resolve made them, whatever the settings do to them after that.
-pub fn draw_resolved(
+/// A part of a frame of `size` pixels, its pixels as the resolve made them, whatever the settings do to them after that. It
+/// takes memory for the part alone.
+pub fn resolved_part(subject: &Subject<'_>, size: [u32; 2], part: Region) -> Framebuffer {
+    let part = part.intersection(Region::of_size(size));
+    let drawn = Mutex::new(Framebuffer::new(part.width, part.height));
+    let publish = |tile: Region, pixels: &[u32]| {
+        let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+        drawn.copy_part([part.x, part.y], tile, pixels);
+    };
+    let order = TileOrder {
+        wanted: &[part],
+        from: [0, 0],
+    };
+    tiles(subject, size, order, &CancelToken::default(), &publish);
+    drawn.into_inner().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// As [`draw_regions`], but leaves pixels as the resolve made them.
+fn draw_resolved(
     subject: &Subject<'_>,
     frame: &mut Framebuffer,
     regions: &[Region],

@@ -68,13 +68,12 @@ pub(super) fn pixel(
         height: 1,
     };
     let around = widened(own, size);
-    let drawn = Mutex::new(Framebuffer::new(size[0], size[1]));
+    let part = Mutex::new(Framebuffer::new(around.width, around.height));
     draw(around, &|tile, pixels| {
-        let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
-        drawn.copy_from(tile, pixels, around);
+        let mut part = part.lock().unwrap_or_else(PoisonError::into_inner);
+        part.copy_part([around.x, around.y], tile, pixels);
     });
-    let drawn = drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut part = drawn.cut(around);
+    let mut part = part.into_inner().unwrap_or_else(PoisonError::into_inner);
     post::smaa(part.pixels_mut(), [around.width, around.height], values);
     let inner = Region {
         x: x.checked_sub(around.x)?,

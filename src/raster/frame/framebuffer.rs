@@ -53,16 +53,30 @@ impl Framebuffer {
 
     /// Copies those of a tile's `pixels`, row by row, that lie in `wanted` and in the frame.
     pub fn copy_from(&mut self, tile: Region, pixels: &[u32], wanted: Region) {
-        let shown = tile
-            .intersection(wanted)
-            .intersection(Region::of_size([self.width, self.height]));
+        let own = Region::of_size([self.width, self.height]);
+        self.copy(own, tile, pixels, tile.intersection(wanted).intersection(own));
+    }
+
+    /// Copies those of a tile's `pixels`, row by row, that this part of a larger frame has, which begins at `corner` of that.
+    pub fn copy_part(&mut self, [x, y]: [u32; 2], tile: Region, pixels: &[u32]) {
+        let own = Region {
+            x,
+            y,
+            width: self.width,
+            height: self.height,
+        };
+        self.copy(own, tile, pixels, tile.intersection(own));
+    }
+
+    /// Copies the pixels of `shown` from a tile to the frame, which has those of `own`: `shown` lies in both.
+    fn copy(&mut self, own: Region, tile: Region, pixels: &[u32], shown: Region) {
         if shown.is_empty() {
             return;
         }
         let (width, length) = (self.width as usize, shown.width as usize);
         let left = (shown.x - tile.x) as usize;
         let rows = pixels.chunks_exact(tile.width as usize);
-        let start = shown.y as usize * width + shown.x as usize;
+        let start = (shown.y - own.y) as usize * width + (shown.x - own.x) as usize;
         let targets = self.pixels[start..].chunks_mut(width);
         for (row, target) in rows
             .skip((shown.y - tile.y) as usize)
@@ -122,5 +136,27 @@ mod tests {
             "what lies outside is left out"
         );
         assert!(frame.cut(region(9, 0, 2, 2)).pixels().is_empty(), "all of it");
+    }
+
+    #[test]
+    fn part_of_a_frame_takes_its_own_pixels_of_a_tile() {
+        let tile = Region {
+            x: 4,
+            y: 8,
+            width: 4,
+            height: 2,
+        };
+        let pixels: Vec<u32> = (1..=8).collect();
+        for (corner, expected) in [
+            ([3, 7], [0, 0, 0, 0, 1, 2]),
+            ([6, 9], [7, 8, 0, 0, 0, 0]),
+            ([5, 8], [2, 3, 4, 6, 7, 8]),
+            ([8, 8], [0; 6]),
+            ([4, 10], [0; 6]),
+        ] {
+            let mut part = Framebuffer::new(3, 2);
+            part.copy_part(corner, tile, &pixels);
+            assert_eq!(part.pixels(), expected, "{corner:?}");
+        }
     }
 }

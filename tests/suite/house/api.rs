@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use rasterscope::post::PostProcess;
 use rasterscope::{PictureError, RenderSettings, SampleRate, Scene, Settings, View, draw, explain, save_png};
 
 use crate::support::program::done;
@@ -65,6 +66,23 @@ fn api_draws_and_explains_as_the_program_does() {
         text.trim_end(),
         "word by word"
     );
+}
+
+/// Such a frame takes a gigabyte; the pixel depends on the few around it, and those are all that is drawn.
+#[test]
+fn api_explains_a_smoothed_pixel_at_the_corner_of_the_largest_frame() {
+    let file = root().join("svg/basic/test1.svg");
+    let scene = Scene::load(&file).unwrap();
+    let mut settings = Settings {
+        size: [16_384, 16_384],
+        view: View::Canvas,
+        ..Settings::default()
+    };
+    settings.render.post_process = PostProcess::Smaa;
+    let pixel = [16_383, 16_383];
+    let whole = explain(&scene, &settings, pixel).unwrap();
+    let smoothed = whole.smoothing.expect("what was done to the pixel");
+    assert_eq!(smoothed.after, whole.color, "at the frame's corner");
 }
 
 #[test]

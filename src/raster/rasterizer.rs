@@ -105,7 +105,7 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
-    use crate::color::{ResolveSpace, Rgba};
+    use crate::color::ResolveSpace;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
     use crate::raster::random::{any_filter, fill, noise};
@@ -131,14 +131,11 @@ mod tests {
             let settings = RasterSettings {
                 rate,
                 pattern,
-                seed: crate::raster::Seed::default(),
-                shading: crate::raster::ShadingRate::default(),
                 coverage: *u.choose(&[PixelCoverage::Sampled, PixelCoverage::Sampled, PixelCoverage::Exact])?,
                 sampling: SamplingSettings { rules, ..sampling },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
-                background: Rgba::WHITE,
-                palette: None,
+                ..RasterSettings::default()
             };
             let seed: Vec<u8> = (0..1500).map(|_| u.arbitrary()).collect::<Result<_>>()?;
             let draw = |tiles: TileLayout| -> Result<Framebuffer> {

@@ -34,6 +34,24 @@ pub struct RasterSettings {
     pub palette: Option<&'static [u32; 256]>,
 }
 
+/// One sample in the middle of each pixel, on white.
+impl Default for RasterSettings {
+    fn default() -> Self {
+        Self {
+            rate: SampleRate::ONE,
+            pattern: SamplePattern::default(),
+            seed: Seed::default(),
+            shading: ShadingRate::default(),
+            coverage: PixelCoverage::default(),
+            sampling: SamplingSettings::default(),
+            filter: SizedFilter::default(),
+            space: ResolveSpace::default(),
+            background: Rgba::WHITE,
+            palette: None,
+        }
+    }
+}
+
 impl RasterSettings {
     /// How many samples a pixel has, a rate that the pattern takes, and where they lie: one in the middle, where areas count.
     pub(crate) fn sampled(&self) -> (SampleRate, SamplePattern) {

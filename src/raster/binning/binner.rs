@@ -479,7 +479,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::color::{ResolveSpace, Rgba};
+    use crate::color::Rgba;
     use crate::geometry::{FillRule, Polygon};
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::shape::Shape;
@@ -490,7 +490,7 @@ mod tests {
     use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::tile_layout::TileLayout;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
+    use crate::raster::{RasterSettings, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -501,18 +501,12 @@ mod tests {
         let side: u32 = u.int_in_range(1..=5)?;
         let settings = RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
-            pattern: SamplePattern::Grid,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
             },
             filter: any_filter(u)?,
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         };
         let tiles = TileLayout::new([u.int_in_range(2..=6)?, u.int_in_range(2..=5)?], SIZE);
         let context = ListContext::with_tiles(SIZE, &settings, tiles);
@@ -549,18 +543,7 @@ mod tests {
 
     #[test]
     fn masks_are_only_in_the_tiles_that_they_may_change() {
-        let settings = RasterSettings {
-            rate: SampleRate::ONE,
-            pattern: SamplePattern::Grid,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
-            sampling: SamplingSettings::default(),
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
-        };
+        let settings = RasterSettings::default();
         let context = ListContext::new([1000, 1000], &settings);
         let square = |from: f64, to: f64| {
             let corner = |x: f64, y: f64| DVec2::new(x, y);

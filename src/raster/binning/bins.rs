@@ -207,7 +207,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::color::{ResolveSpace, Rgba};
+    use crate::color::Rgba;
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::shape::Shape;
     use crate::raster::coverage::triangle::SortedTriangle;
@@ -215,7 +215,7 @@ mod tests {
     use crate::raster::shading::Paint;
     use crate::raster::span::SpanRect;
     use crate::raster::tile_layout::TileLayout;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
+    use crate::raster::{RasterSettings, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -224,18 +224,11 @@ mod tests {
     fn settings(side: u32, rules: Rules) -> RasterSettings {
         RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
-            pattern: SamplePattern::Grid,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules,
                 ..SamplingSettings::default()
             },
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         }
     }
 

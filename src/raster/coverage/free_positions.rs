@@ -196,13 +196,13 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
-    use crate::color::{Premultiplied16, ResolveSpace, Rgba};
+    use crate::color::Premultiplied16;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
     use crate::raster::paint::per_sample::PerSamplePainter;
     use crate::raster::paint::recorder::PaintedCommand;
     use crate::raster::random::{fill, noise};
-    use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SizedFilter};
+    use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
     use crate::texture::{PixelSampling, SamplingSettings, Texture};
 
     const SIZE: [u32; 2] = [70, 50];
@@ -211,18 +211,12 @@ mod tests {
         RasterSettings {
             rate: SampleRate::new(samples).expect("a rate"),
             pattern,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 pixel: PixelSampling::Bilinear,
                 rules,
                 ..SamplingSettings::default()
             },
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         }
     }
 

@@ -142,17 +142,13 @@ mod tests {
             let settings = RasterSettings {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16])?).expect("a rate"),
                 pattern,
-                seed: crate::raster::Seed::default(),
-                shading: crate::raster::ShadingRate::default(),
-                coverage: crate::raster::PixelCoverage::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()
                 },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
-                background: Rgba::WHITE,
-                palette: None,
+                ..RasterSettings::default()
             };
             let seed: Vec<u8> = (0..1200).map(|_| u.arbitrary()).collect::<Result<_>>()?;
             let draw = |keep: bool| -> Result<(Framebuffer, u64)> {

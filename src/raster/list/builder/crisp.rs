@@ -88,25 +88,15 @@ impl ChunkBuilder<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::{ResolveSpace, Rgba};
     use crate::raster::list::context::ListContext;
     use crate::raster::span::to_index;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
-    use crate::texture::SamplingSettings;
+    use crate::raster::{RasterSettings, SampleRate};
 
     #[test]
     fn pixels_are_covered_whose_middles_are_inside() {
         let settings = RasterSettings {
             rate: SampleRate::new(16).expect("a square number"),
-            pattern: SamplePattern::Grid,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
-            sampling: SamplingSettings::default(),
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         };
         let size = [20, 16];
         let context = ListContext::new(size, &settings);

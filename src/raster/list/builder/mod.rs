@@ -326,8 +326,7 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
-    use crate::color::ResolveSpace;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
+    use crate::raster::{RasterSettings, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -337,18 +336,11 @@ mod tests {
         let side: u32 = u.int_in_range(1..=4)?;
         Ok(RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
-            pattern: SamplePattern::Grid,
-            seed: crate::raster::Seed::default(),
-            shading: crate::raster::ShadingRate::default(),
-            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
             },
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         })
     }
 

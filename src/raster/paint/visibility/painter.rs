@@ -304,7 +304,7 @@ mod tests {
     use crate::raster::shading::Paint;
     use crate::raster::span::Span;
     use crate::raster::tiles::Painters;
-    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, ShadingRate, SizedFilter};
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, ShadingRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -314,14 +314,7 @@ mod tests {
         RasterSettings {
             rate: SampleRate::new(4).expect("a square number"),
             pattern: SamplePattern::Jittered,
-            seed: crate::raster::Seed::default(),
-            shading: ShadingRate::Sample,
-            coverage: crate::raster::PixelCoverage::default(),
-            sampling: SamplingSettings::default(),
-            filter: SizedFilter::default(),
-            space: ResolveSpace::Stored,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         }
     }
 

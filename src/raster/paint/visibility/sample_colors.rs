@@ -215,7 +215,7 @@ mod tests {
     use crate::raster::paint::visibility::painter::Crowds;
     use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::span::Span;
-    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, ShadingRate};
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -229,9 +229,6 @@ mod tests {
             let settings = RasterSettings {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
                 pattern: *u.choose(&SamplePattern::ALL)?,
-                seed: crate::raster::Seed::default(),
-                shading: ShadingRate::Sample,
-                coverage: crate::raster::PixelCoverage::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()
@@ -239,7 +236,7 @@ mod tests {
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
                 background: *u.choose(&[Rgba::WHITE, Rgba::TRANSPARENT])?,
-                palette: None,
+                ..RasterSettings::default()
             };
             let context = ListContext::new(SIZE, &settings);
             let mut builder = ChunkBuilder::new(&context, 12);

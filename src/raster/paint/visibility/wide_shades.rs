@@ -313,7 +313,7 @@ mod tests {
     use crate::raster::random::{any_filter, check_until, fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::span::Span;
-    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, Seed, ShadingRate};
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, ShadingRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -327,21 +327,18 @@ mod tests {
             } else {
                 *u.choose(&SamplePattern::ALL)?
             },
-            seed: Seed::default(),
             shading: if u.ratio(1, 4)? {
                 ShadingRate::Centre
             } else {
                 ShadingRate::Sample
             },
-            coverage: crate::raster::PixelCoverage::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
             },
             filter: any_filter(u)?,
             space: *u.choose(&ResolveSpace::ALL)?,
-            background: Rgba::WHITE,
-            palette: None,
+            ..RasterSettings::default()
         })
     }
 

@@ -7,7 +7,7 @@
 use crate::geometry::FillRule;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
-use crate::raster::coverage::polygon::OutlineWithEdges;
+use crate::raster::coverage::polygon::{OutlineEdge, OutlineWithEdges};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::span::{Reach, Span, to_index};
 
@@ -55,35 +55,12 @@ impl OutlineTiles {
         strip: TileStrip,
         visit: impl FnMut(i32, Reach),
     ) {
-        let TileStrip {
-            rows: all_rows,
-            tiles,
-            width,
-            overlap,
-        } = strip;
-        self.columns.clear();
-        let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
-        self.columns.resize(count + 1, Column::default());
-        self.partial.clear();
-        for (edge, inside) in outline.edges_in(all_rows) {
+        let crossing = |edge: &OutlineEdge, inside: Span| {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
-            let (first, last) = (at(inside.start), at(inside.end - 1));
-            let from = tile(first.min(last) - MARGIN - overlap, width, tiles);
-            let to = tile(first.max(last) + MARGIN, width, tiles);
-            if from >= tiles.end {
-                continue;
-            }
-            let right = (to + 1).clamp(tiles.start, tiles.end);
-            self.columns[to_index(from - tiles.start)].lying += 1;
-            self.columns[to_index(right - tiles.start)].lying -= 1;
-            if inside == all_rows {
-                self.columns[to_index(right - tiles.start)].winding += edge.winding;
-            } else {
-                self.partial.push((right, inside, edge.winding));
-            }
-        }
-        self.sweep(outline.outline.rule, all_rows, tiles, visit);
+            ([at(inside.start), at(inside.end - 1)], inside)
+        };
+        self.walk(outline, strip, crossing, visit);
     }
 
     /// The same for an outline of what it touches, in a strip of rows of pixels: tiles in which no edge lies are wound around as
@@ -93,6 +70,29 @@ impl OutlineTiles {
         outline: OutlineWithEdges<'_>,
         grid: SubpixelGrid,
         strip: TileStrip,
+        visit: impl FnMut(i32, Reach),
+    ) {
+        let [top, bottom] = [strip.rows.start, strip.rows.end].map(|row| row << grid.bits());
+        let crossing = |edge: &OutlineEdge, _| {
+            let ends = if edge.top.y == edge.bottom.y {
+                [edge.top.x, edge.bottom.x].map(f64::from)
+            } else {
+                let line = Line::new(edge.top, edge.bottom);
+                [edge.top.y.max(top), edge.bottom.y.min(bottom)].map(|y| line.at(f64::from(y)))
+            };
+            (ends, edge.sample_rows(grid).intersection(strip.rows))
+        };
+        self.walk(outline, strip, crossing, visit);
+    }
+
+    /// Finds the tiles by what `crossing` tells of an edge and the rows that it has in the strip: the columns where it enters and
+    /// leaves them, and the rows in which tiles to its right are wound around.
+    #[inline]
+    fn walk(
+        &mut self,
+        outline: OutlineWithEdges<'_>,
+        strip: TileStrip,
+        crossing: impl Fn(&OutlineEdge, Span) -> ([f64; 2], Span),
         visit: impl FnMut(i32, Reach),
     ) {
         let TileStrip {
@@ -105,14 +105,8 @@ impl OutlineTiles {
         let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
         self.columns.resize(count + 1, Column::default());
         self.partial.clear();
-        let [top, bottom] = [all_rows.start, all_rows.end].map(|row| row << grid.bits());
-        for (edge, _) in outline.edges_in(all_rows) {
-            let [first, last] = if edge.top.y == edge.bottom.y {
-                [edge.top.x, edge.bottom.x].map(f64::from)
-            } else {
-                let line = Line::new(edge.top, edge.bottom);
-                [edge.top.y.max(top), edge.bottom.y.min(bottom)].map(|y| line.at(f64::from(y)))
-            };
+        for (edge, inside) in outline.edges_in(all_rows) {
+            let ([first, last], inside) = crossing(edge, inside);
             let from = tile(first.min(last) - MARGIN - overlap, width, tiles);
             let to = tile(first.max(last) + MARGIN, width, tiles);
             if from >= tiles.end {
@@ -121,7 +115,6 @@ impl OutlineTiles {
             let right = (to + 1).clamp(tiles.start, tiles.end);
             self.columns[to_index(from - tiles.start)].lying += 1;
             self.columns[to_index(right - tiles.start)].lying -= 1;
-            let inside = edge.sample_rows(grid).intersection(all_rows);
             if inside == all_rows {
                 self.columns[to_index(right - tiles.start)].winding += edge.winding;
             } else if !inside.is_empty() {

@@ -370,13 +370,7 @@ impl<'a> Binner<'a> {
             } else {
                 Span::EMPTY
             };
-            for column in touched.start..touched.end {
-                let covers = covered.start <= column && column < covered.end;
-                let entry = if covers {
-                    entry.covering(base && entry.is_opaque())
-                } else {
-                    entry
-                };
+            for (column, entry) in entry.along_row([touched, covered], base) {
                 visit(self.tile(column, row), entry);
             }
         }

@@ -7,6 +7,7 @@ use crate::raster::coverage::shape::Shape;
 use crate::raster::layers::Compositing;
 use crate::raster::list::chunk::{Chunk, DrawCommand};
 use crate::raster::shading::Paint;
+use crate::raster::span::Span;
 
 /// One command in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
 /// around in memory.
@@ -129,6 +130,20 @@ impl TileCommand {
             head: self.head | Self::COVERS | hides,
             ..self
         }
+    }
+
+    /// The same shape in the tile columns that it touches, given with those that it covers; `base` says that it is in no layer.
+    #[inline]
+    pub(super) fn along_row(self, [touched, covered]: [Span; 2], base: bool) -> impl Iterator<Item = (i32, Self)> {
+        (touched.start..touched.end).map(move |column| {
+            let covers = covered.start <= column && column < covered.end;
+            let entry = if covers {
+                self.covering(base && self.is_opaque())
+            } else {
+                self
+            };
+            (column, entry)
+        })
     }
 
     /// The same shape by its edges, as in any other tile.

@@ -346,13 +346,7 @@ mod tests {
             let pair = Pair::new(a, b).expect("one size");
             let found = pair.flip(&CancelToken::default()).expect("not cancelled");
             assert!((found - mean).abs() < 2e-5, "{name}: mean {found} instead of {mean}");
-            let [x, y] = [149.min(a.width() - 1), 70.min(a.height() - 1)];
-            let place = Region {
-                x,
-                y,
-                width: 1,
-                height: 1,
-            };
+            let place = Region::of_pixel([149.min(a.width() - 1), 70.min(a.height() - 1)]);
             let error = Observer::new().errors(pair, place).next().expect("a pixel");
             assert!((error - pixel).abs() < 1e-4, "{name}: {error} instead of {pixel}");
             let back = pair.swapped().flip(&CancelToken::default()).expect("not cancelled");

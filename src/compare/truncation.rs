@@ -39,13 +39,7 @@ pub(super) fn truncated_errors(trial: &Trial<'_>, causes: &[Cause]) -> Option<[f
     };
     let variant = trial.variant(causes);
     let subject = variant.subject();
-    let whole = Region {
-        x: 0,
-        y: 0,
-        width: size[0],
-        height: size[1],
-    };
-    let again = Neighbourhood::new(subject, size, whole);
+    let again = Neighbourhood::new(subject, size, Region::of_size(size));
     let most = (COMPARISONS / again.ops().max(1)).clamp(FEWEST, MOST);
     let pairs = || before.pixels().iter().zip(trial.other.pixels());
     let (differing, equal): (Vec<usize>, Vec<usize>) =

@@ -70,13 +70,7 @@ pub(super) fn smoothing(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2])
         settings: &settings,
         ..*subject
     };
-    let own = Region {
-        x,
-        y,
-        width: 1,
-        height: 1,
-    };
-    let around = widened(own, size);
+    let around = widened(Region::of_pixel([x, y]), size);
     let at = [x.checked_sub(around.x)?, y.checked_sub(around.y)?];
     let part = resolved_part(&subject, size, around);
     let trace = post::trace(part.pixels(), [around.width, around.height], at, values)?;

@@ -48,19 +48,13 @@ fn placed<'p>(
     contours.map(|contour| contour.iter().map(|point| screen.place(*point)))
 }
 
-/// Draws pixel `(x, y)` of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
+/// Draws a pixel of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
 ///
 /// Sources are indices into [`crate::scene::Scene::primitives`], or the number of primitives for the canvas outline. Only
 /// ops that touch samples of the pixel are told, and the layers that hold any of them. It is the picture that is told of,
 /// whatever the settings show instead.
-pub fn replay(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2]) -> Option<PixelReplay> {
-    let pixel = Region {
-        x,
-        y,
-        width: 1,
-        height: 1,
-    };
-    Neighbourhood::new(*subject, size, pixel).replay([x, y])
+pub fn replay(subject: &Subject<'_>, size: [u32; 2], pixel: [u32; 2]) -> Option<PixelReplay> {
+    Neighbourhood::new(*subject, size, Region::of_pixel(pixel)).replay(pixel)
 }
 
 /// A sample that edges in 32-bit floats leave open.

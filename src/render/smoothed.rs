@@ -61,12 +61,7 @@ pub(super) fn pixel(
     values: Values,
     draw: impl FnOnce(Region, &(dyn Fn(Region, &[u32]) + Sync)),
 ) -> Option<u32> {
-    let own = Region {
-        x,
-        y,
-        width: 1,
-        height: 1,
-    };
+    let own = Region::of_pixel([x, y]);
     let around = widened(own, size);
     let part = Mutex::new(Framebuffer::new(around.width, around.height));
     draw(around, &|tile, pixels| {

@@ -26,6 +26,16 @@ impl Region {
         }
     }
 
+    /// A single pixel, in column `x` and row `y`.
+    pub const fn of_pixel([x, y]: [u32; 2]) -> Self {
+        Self {
+            x,
+            y,
+            width: 1,
+            height: 1,
+        }
+    }
+
     /// Column after the last.
     pub fn right(self) -> u32 {
         self.x.saturating_add(self.width)

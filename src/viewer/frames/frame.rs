@@ -178,12 +178,7 @@ mod tests {
             }
             for y in 0..=size[1] {
                 for x in 0..=size[0] {
-                    let pixel = Region {
-                        x,
-                        y,
-                        width: 1,
-                        height: 1,
-                    };
+                    let pixel = Region::of_pixel([x, y]);
                     let drawn = regions.iter().any(|region| !region.intersection(pixel).is_empty());
                     assert!(
                         drawn || !cells.contains([x, y]),

@@ -83,14 +83,7 @@ impl WindowLayout {
 
     /// Where a pane shows a frame pixel, in window pixels.
     pub(in crate::viewer) fn shown_in(&self, pane: &Pane, pixel: [u32; 2]) -> PixelRect {
-        let [x, y] = pixel;
-        let place = Region {
-            x,
-            y,
-            width: 1,
-            height: 1,
-        };
-        magnified(&pane.place(place), self.zoom())
+        magnified(&pane.place(Region::of_pixel(pixel)), self.zoom())
     }
 
     pub(in crate::viewer) fn panes(&self) -> Panes {

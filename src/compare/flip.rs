@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use super::Pair;
+use super::gaussian::{gaussian, normalized, single};
 use super::plane::Plane;
 use super::tiles::{sum, with_margin};
 use crate::color::srgb_to_linear;
@@ -238,31 +239,12 @@ fn reach(sigma: f64) -> u32 {
     (3.0 * sigma).ceil() as u32
 }
 
-/// `exp(-x^2 / (2 sigma^2))` from `-radius` to `radius`, without the ends that are below a float's resolution.
-fn gaussian(sigma: f64, radius: u32) -> Vec<f64> {
-    let radius = f64::from(radius);
-    let offsets = std::iter::successors(Some(-radius), |x| Some(x + 1.0)).take_while(|x| *x <= radius);
-    let weights = offsets.map(|x| (-x * x / (2.0 * sigma * sigma)).exp());
-    weights.filter(|weight| *weight > 1e-9).collect()
-}
-
-/// The same weights with the sum 1.
-fn normalized(weights: &[f64]) -> Vec<f32> {
-    let sum: f64 = weights.iter().sum();
-    weights.iter().map(|weight| single(weight / sum)).collect()
-}
-
-/// The same weights with positive ones that sum up to 1 and negative ones that sum up to -1.
+/// Weights with positive ones that sum up to 1 and negative ones that sum up to -1.
 fn balanced(weights: &[f64]) -> Vec<f32> {
     let sum = |sign: f64| weights.iter().map(|weight| (weight * sign).max(0.0)).sum::<f64>();
     let (above, below) = (sum(1.0), sum(-1.0));
     let scaled = |weight: &f64| single(weight / if *weight > 0.0 { above } else { below });
     weights.iter().map(scaled).collect()
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "rounds to a float of 32 bits")]
-fn single(value: f64) -> f32 {
-    value as f32
 }
 
 /// Pictures that a few lines of any language make anew, for values from other programs.

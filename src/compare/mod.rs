@@ -8,9 +8,11 @@
 
 mod cause;
 mod flip;
+mod gaussian;
 mod hypotheses;
 mod levels;
 mod line;
+mod luma;
 mod pair;
 mod picture;
 mod places;
@@ -28,6 +30,7 @@ pub use cause::{Cause, CellCorner};
 pub use hypotheses::{Guess, guess};
 pub use levels::{Largest, Levels};
 pub use line::{Line, LinePoint};
+pub use luma::single_luma;
 pub use pair::{Pair, SizeMismatch};
 pub use picture::{count_different, decode_picture, encoded_size};
 pub use places::Place;

@@ -16,6 +16,7 @@
 //! overshoot, undershoot), the width is the 10 to 90 % rise distance of cameras (beside ISO 12233).
 
 use super::line::{Line, LinePoint};
+use super::luma::luma;
 use super::tiles::over_white;
 use crate::raster::Framebuffer;
 
@@ -67,12 +68,12 @@ impl ProfileChannel {
 
     /// Its value of a straight pixel `0xAARRGGBB`.
     pub fn value(self, pixel: u32) -> f64 {
-        let [r, g, b] = over_white(pixel).map(f64::from);
+        let color @ [r, g, b] = over_white(pixel);
         match self {
-            Self::Luma => 0.299 * r + 0.587 * g + 0.114 * b,
-            Self::Red => r,
-            Self::Green => g,
-            Self::Blue => b,
+            Self::Luma => luma(color),
+            Self::Red => r.into(),
+            Self::Green => g.into(),
+            Self::Blue => b.into(),
         }
     }
 }

@@ -5,6 +5,8 @@
 //! (`dssim-core`), measure something else (`ssimulacra2`), or leave the paper: `image-compare` 0.5 cuts the picture into
 //! blocks and does not divide its variances by their number of pixels.
 
+use super::gaussian::{gaussian, normalized};
+use super::luma::single_luma;
 use super::plane::Plane;
 use super::tiles::sum;
 use super::{Pair, tiles};
@@ -36,7 +38,7 @@ impl Pair<'_> {
             height: height - 2 * radius[1],
         };
         let windows = f64::from(centres.width) * f64::from(centres.height);
-        let kernels = radius.map(gaussian);
+        let kernels = radius.map(window);
         let total = sum(centres, cancel, |tile| {
             self.sum_where_unlike(tile, RADIUS, 1.0, &|part| {
                 let [a, b] = [self.a, self.b].map(|frame| luma(frame, part));
@@ -47,24 +49,16 @@ impl Pair<'_> {
     }
 }
 
-/// Weights `exp(-x^2 / (2 sigma^2))` from `-radius` to `radius`, which sum up to 1.
-fn gaussian(radius: u32) -> Vec<f32> {
-    let weight = |x: f64| (-x * x / (2.0 * SIGMA * SIGMA)).exp();
-    let weights: Vec<f64> = (0..=2 * radius)
-        .map(|i| weight(f64::from(i) - f64::from(radius)))
-        .collect();
-    let sum: f64 = weights.iter().sum();
-    weights.iter().map(|weight| single(weight / sum)).collect()
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "rounds to a float of 32 bits")]
-fn single(value: f64) -> f32 {
-    value as f32
+/// The weights of a window along an axis.
+fn window(radius: u32) -> Vec<f32> {
+    normalized(&gaussian(SIGMA, radius))
 }
 
 fn luma(frame: &Framebuffer, tile: Region) -> Vec<f32> {
-    let luma = |[r, g, b]: [u8; 3]| 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
-    tiles::with_margin(frame, tile, RADIUS).into_iter().map(luma).collect()
+    tiles::with_margin(frame, tile, RADIUS)
+        .into_iter()
+        .map(single_luma)
+        .collect()
 }
 
 /// The sum of the similarities of all windows in a tile; `a` and `b` are its lumas with their margin.
@@ -161,7 +155,7 @@ mod tests {
             height: 20,
         };
         let luma = luma(&waves, tile);
-        let found = similarity(&luma, &luma, 40, &[gaussian(RADIUS), gaussian(RADIUS)]);
+        let found = similarity(&luma, &luma, 40, &[window(RADIUS), window(RADIUS)]);
         assert!((found - 600.0).abs() < 1e-4, "one for each window: {found}");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::PixelRect;
 use super::paint::{for_each_index, over_white};
+use crate::compare::single_luma;
 use crate::raster::Framebuffer;
 
 /// Part of the distance between samples that a mark takes to each side.
@@ -69,7 +70,7 @@ fn draw_sample(block: &PixelRect, sample: &SampleMark, radius: f64, picture: &mu
 
 /// Whether white reads better than black on this straight colour over white.
 pub fn is_dark([r, g, b, a]: [u8; 4]) -> bool {
-    let luma = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
+    let luma = single_luma([r, g, b]);
     let opacity = f32::from(a) / 255.0;
     luma * opacity + 255.0 * (1.0 - opacity) < 140.0
 }

@@ -24,8 +24,6 @@ const SHAPE: u32 = 1;
 /// The columns of the table.
 const COLUMNS: &str =
     "across,down,wavelength,angle,decibels,amplitude,seen_across,seen_down,from_across,from_down,alias";
-/// The part of a wave's power from which on it is told to be an alias.
-const ALIAS: f64 = 0.5;
 
 /// What `spectrum` answers; with `--json` in this shape.
 #[derive(Debug, Serialize)]
@@ -69,6 +67,9 @@ struct PeakReport {
     /// The part of its power that finer waves account for.
     #[serde(skip_serializing_if = "Option::is_none")]
     alias: Option<f64>,
+    /// Whether that is so much that the text tells of it.
+    #[serde(skip)]
+    is_alias: bool,
 }
 
 /// Finds the waves and prints what was found; writes the picture and the table where they were asked for.
@@ -279,6 +280,7 @@ impl PeakReport {
             seen_at: peak.lands.map(|at| at.map(rounded)),
             from: source.map(|(wave, _)| wave.frequency.map(rounded)),
             alias: source.map(|(_, part)| rounded(part)),
+            is_alias: peak.alias().is_some(),
         }
     }
 
@@ -288,7 +290,7 @@ impl PeakReport {
             "{x:>24.4}  {y:>6.4}  {:>10.2}  {:>6.1}  {:>6.1}",
             self.wavelength, self.angle, self.decibels
         );
-        let alias = self.from.filter(|_| self.alias.is_some_and(|alias| alias >= ALIAS));
+        let alias = self.from.filter(|_| self.is_alias);
         let words = [
             self.in_pixels.map(|[x, y]| format!("{x:.3}, {y:.3} per pixel")),
             self.seen_at.map(|[x, y]| format!("too fine: seen at {x:.3}, {y:.3}")),

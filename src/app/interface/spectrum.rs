@@ -38,8 +38,6 @@ const FRAME: f32 = 14.0;
 const HEAD: f32 = 46.0;
 /// Height of the legend's bar and of what its swatches stand in, in points.
 const LEGEND_HEIGHT: f32 = 12.0;
-/// The part of a wave's power from which on it is told to be an alias.
-const ALIAS: f64 = 0.5;
 
 /// Where the card is, and its plot.
 #[derive(Debug, Default)]
@@ -219,8 +217,7 @@ fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
     };
     let first = format!("{x:.3}, {y:.3} /{unit}: {length}, {:.0} dB", wave.decibels());
     let place = |[x, y]: [f64; 2]| format!("{x:.2}, {y:.2}");
-    let alias = reading.source.filter(|(_, part)| *part >= ALIAS);
-    let second = match (reading.lands, alias) {
+    let second = match (reading.lands, reading.alias()) {
         (Some(lands), _) if is_texture => format!(
             "{} /px: too fine for pixels, seen at {}",
             place(reading.in_pixels),

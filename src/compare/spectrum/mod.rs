@@ -98,6 +98,16 @@ pub struct SpectrumReading {
     pub source: Option<(Wave, f64)>,
 }
 
+impl SpectrumReading {
+    /// The part of a wave's power from which on it is told to be an alias.
+    const ALIAS: f64 = 0.5;
+
+    /// [`SpectrumReading::source`], where the wave is told to be an alias: where most of it is made of finer ones.
+    pub fn alias(&self) -> Option<(Wave, f64)> {
+        self.source.filter(|(_, part)| *part >= Self::ALIAS)
+    }
+}
+
 impl SpectrumAnalysis {
     /// The longest side that is transformed, in pixels or texels: of more, the middle is.
     pub const LONGEST: u32 = 512;

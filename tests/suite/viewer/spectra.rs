@@ -58,11 +58,12 @@ fn spectrum_follows_view_and_settings() {
     session.run(spectrum(SpectrumCommand::Show(Toggle::Flip)));
     let alias = strongest(&session);
     assert_near(alias.wave.frequency[0], 0.3, "an alias");
-    assert!(alias.source.unwrap().1 > 0.9, "of finer waves: {alias:?}");
+    assert!(alias.alias().unwrap().1 > 0.9, "of finer waves: {alias:?}");
     at_scale(&mut session, 2.0);
     let own = strongest(&session);
     assert_near(own.wave.frequency[0], 0.35, "twice as large: coarse enough");
     assert!(own.source.is_none_or(|(_, part)| part < 0.1), "its own: {own:?}");
+    assert!(own.alias().is_none(), "and so told to be none: {own:?}");
     at_scale(&mut session, 1.0);
     let before = strongest(&session).wave.amplitude;
     session.run(set("sample-rate", "256"));

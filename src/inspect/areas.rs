@@ -1,13 +1,11 @@
 //! Pixels that have areas and no samples: what shows in them, and where neighbours let the background through.
 
-use super::model::{Conflation, Explanation, Interpolated, Paint, Truth, View};
+use super::model::{Conflation, Explanation, Fragment, Interpolated, Paint, Truth, View};
 use super::numbers::{counted, percent};
 use crate::render::Explainer;
 
 /// Parts of a pixel that are too small to be told from none.
 const NOTHING: f64 = 0.002;
-/// A colour of less alpha than this, in levels, lets what is below shine through.
-const OPAQUE: f64 = 254.99;
 /// Neighbours in one pixel that are compared with each other at most.
 const MOST_NEIGHBOURS: usize = 8;
 
@@ -26,7 +24,7 @@ pub(super) fn conflation(paints: &[Paint], explainer: &Explainer<'_>) -> Option<
     let mut parts: Vec<usize> = Vec::new();
     for (number, paint) in paints.iter().enumerate() {
         match paint.covered {
-            Some(covered) if covered > 1.0 - NOTHING && paint.alpha() >= OPAQUE => parts.clear(),
+            Some(covered) if covered > 1.0 - NOTHING && paint.hides() => parts.clear(),
             Some(covered) if covered > NOTHING && covered < 1.0 - NOTHING && !paint.in_mask => parts.push(number),
             // What lies on different layers meets nobody; and what lies between neighbours, or above both, takes its part of what
             // shines through.
@@ -184,9 +182,26 @@ impl Explanation {
     }
 }
 
+impl Fragment {
+    /// A colour of less alpha than this, in levels, lets what is below shine through.
+    const OPAQUE: f64 = 254.99;
+
+    /// Whether what is below shines through its colour.
+    pub(super) fn shines_through(&self) -> bool {
+        self.color[3] < Self::OPAQUE
+    }
+}
+
 impl Paint {
     /// The alpha of its colour, in levels.
     fn alpha(&self) -> f64 {
         self.fragments.first().map_or(0.0, |fragment| fragment.color[3])
+    }
+
+    /// Whether nothing shines through where it was painted.
+    fn hides(&self) -> bool {
+        self.fragments
+            .first()
+            .is_some_and(|fragment| !fragment.shines_through())
     }
 }

@@ -2,13 +2,11 @@
 //!
 //! Said of what was recorded of this pixel's samples only; where neighbours meet as they should there is nothing to say.
 
-use super::model::{Edge, Explanation, Interpolated, Paint, Shape, Texture, Verdict, View};
+use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Shape, Texture, Verdict, View};
 use super::numbers::{number, significant};
 
 /// Gaps wider than this, in pixels, are there to be seen and nobody's mistake.
 const WIDEST_GAP: f64 = 0.25;
-/// A colour of less alpha than this, in levels, lets what is below shine through.
-const OPAQUE: f64 = 254.99;
 /// Cosine of the angle between edges that run side by side.
 const SIDE_BY_SIDE: f64 = 0.98;
 
@@ -58,7 +56,7 @@ impl Explanation {
             .iter()
             .enumerate()
             .flat_map(|(i, upper)| tied[..i].iter().map(move |lower| [*lower, *upper]));
-        let shines = |paint: usize| seen(paint).is_some_and(|fragment| fragment.color[3] < OPAQUE);
+        let shines = |paint: usize| seen(paint).is_some_and(Fragment::shines_through);
         let mut seams = pairs.filter(|[lower, upper]| shines(*upper) && self.are_apart(*lower, *upper));
         seams.next()
     }
@@ -263,7 +261,7 @@ impl Explanation {
 }
 
 fn is_seen_in_texture(paint: &Paint) -> bool {
-    let textured = |fragment: &super::model::Fragment| {
+    let textured = |fragment: &Fragment| {
         let view = paint.views.get(fragment.sample);
         fragment.seen
             && matches!(

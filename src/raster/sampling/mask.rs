@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use crate::raster::SampleRate;
 
-const WORDS: usize = (SampleRate::MAX / 64) as usize;
+/// Samples that a word of a mask has bits for.
+pub(crate) const MASK_BITS: usize = 64;
+
+const WORDS: usize = SampleRate::MAX as usize / MASK_BITS;
 
 /// Some samples of a pixel, by their numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,12 +2,10 @@
 
 use crate::color::Resolver;
 use crate::raster::paint::visibility::shading_queue::Fragment;
+use crate::raster::sampling::mask::MASK_BITS;
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::{PixelRun, Pixels, Wanted};
 use crate::texture::SampleGrid;
-
-/// Samples that a mask has bits for.
-const MASK_BITS: u32 = 64;
 
 /// The fragments of one primitive.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +71,7 @@ impl FragmentSums {
         mut add: impl FnMut(u32, [u32; 4], u32),
     ) -> u64 {
         let mut shaded = 0;
-        for first in (0..fragments.count).step_by(MASK_BITS as usize) {
+        for first in (0..fragments.count).step_by(MASK_BITS) {
             if first > 0 {
                 self.gather(fragments, first);
                 clear(&mut self.sums, self.places.len());

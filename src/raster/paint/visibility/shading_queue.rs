@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::color::Light;
 use crate::raster::paint::visibility::packed::{PER_WORD, equal, lanes, splat};
+pub(super) use crate::raster::sampling::mask::MASK_BITS;
 use crate::raster::shading::context::PixelRun;
 use crate::raster::surface_id::SurfaceId;
 
@@ -70,9 +71,6 @@ struct BySurface<T> {
     /// Where those of each surface begin.
     starts: Vec<u32>,
 }
-
-/// Samples that a mask has bits for.
-pub(super) const MASK_BITS: usize = 64;
 
 impl ShadingQueue {
     /// Forgets everything.

@@ -1,7 +1,9 @@
 //! Edges as bits: 64 pixels of a row or of a column in each word, so that searches go by words and not by pixels.
 
+/// Rows that are worked on at once: as many as a word of a column has bits.
+pub(super) const BAND: usize = 64;
 /// Rows beside the frame that can be asked; none has edges.
-const BESIDE: usize = 4;
+const BESIDE: u32 = 4;
 
 /// The edges of 64 pixels: those on the left, and those at the top.
 pub(super) type Words = [u64; 2];
@@ -19,14 +21,14 @@ impl Bits {
     pub(super) fn rows(length: usize, count: usize) -> Self {
         let stride = words_of(length);
         Self {
-            words: vec![[0; 2]; stride * (count + 2 * BESIDE)],
+            words: vec![[0; 2]; stride * (count + 2 * Self::BEFORE)],
             steps: [1, stride],
         }
     }
 
     /// Columns of so many pixels, without edges: the first words of all columns lie side by side, then the second ones.
     pub(super) fn columns(length: usize, count: usize) -> Self {
-        let stride = count + 2 * BESIDE;
+        let stride = count + 2 * Self::BEFORE;
         Self {
             words: vec![[0; 2]; stride * words_of(length)],
             steps: [stride, 1],
@@ -36,7 +38,7 @@ impl Bits {
     /// The words of rows from the frame's first on, and how many each has: the first lies before the frame.
     pub(super) fn rows_mut(&mut self) -> (&mut [Words], usize) {
         let stride = self.steps[1];
-        (&mut self.words[BESIDE * stride..], stride)
+        (&mut self.words[Self::BEFORE * stride..], stride)
     }
 
     /// First words of columns, then second ones and so on, and how many there are of each: the first [`Self::BEFORE`] lie
@@ -46,14 +48,13 @@ impl Bits {
         (&mut self.words[stride..], stride)
     }
 
-    /// Columns before the frame.
-    pub(super) const BEFORE: usize = BESIDE;
+    /// Rows or columns before the frame.
+    pub(super) const BEFORE: usize = BESIDE as usize;
 
     /// The word of number `word` in a row: number 1 is the frame's first.
     #[inline]
     pub(super) fn word(&self, word: usize, row: i32) -> Words {
-        const BESIDE_ROWS: i32 = 4;
-        let row = usize::try_from(row + BESIDE_ROWS).unwrap_or(0);
+        let row = usize::try_from(row + BESIDE.cast_signed()).unwrap_or(0);
         let at = word * self.steps[0] + row * self.steps[1];
         self.words.get(at).copied().unwrap_or_default()
     }

@@ -10,7 +10,7 @@ use std::array::from_fn;
 use fearless_simd::{Simd, dispatch};
 use rayon::prelude::*;
 
-use super::bits::{self, Bits, Words};
+use super::bits::{self, BAND, Bits, Words};
 use crate::simd;
 
 /// The edge between a pixel and the one on its left, among the [`Words`] of a pixel.
@@ -37,8 +37,6 @@ const LEAST: i32 = WHITE / 10;
 
 /// Pixels whose edges are found at once: as many as a word has bits.
 const CHUNK: usize = 64;
-/// Rows that a thread takes at once: as many again, so that words of columns are whole.
-const BAND: usize = 64;
 /// Pixels of a chunk with those beside it: two on its left and one on its right.
 const WIDE: usize = CHUNK + 3;
 

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::bits;
+use super::bits::{self, BAND};
 use super::blend::{Around, Values};
 use super::edges::Edges;
-use super::weights::{BAND, LeftWeights, TopWeights, Weights};
+use super::weights::{LeftWeights, TopWeights, Weights};
 
 /// How far beside a pixel others may lie that decide about it: the end of the longest line that it or the next pixel is part
 /// of, what crosses it there, and the neighbours by which that is an edge.

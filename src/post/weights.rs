@@ -1,7 +1,7 @@
 //! How much of each other two pixels beside an edge take.
 
 use super::areas::{self, Areas, ONE};
-use super::bits::{self, Words};
+use super::bits::{self, BAND, Words};
 use super::diagonals::{Diagonal, Diagonals};
 use super::edges::{Edges, LEFT, TOP};
 use super::lines::{Axis, Line, LineWords};
@@ -166,9 +166,6 @@ impl TopWeights {
         }
     }
 }
-
-/// Rows whose left edges are weighed at once: as many as a word of a column has bits.
-pub(super) const BAND: usize = 64;
 
 /// The weights at the left edges of a band of rows, and where there are any.
 #[derive(Debug)]

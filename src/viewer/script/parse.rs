@@ -206,7 +206,7 @@ fn parse_step(text: &str) -> Result<Step, String> {
         "wheel" => wheel(rest).ok_or_else(|| form("CLICKS, or CLICKS X,Y")),
         "resize" => size(rest)
             .map(Step::Resize)
-            .ok_or_else(|| form("WxH in pixels, from 1 to 16384 each")),
+            .ok_or_else(|| form(&format!("WxH in pixels, from 1 to {} each", Framebuffer::MAX_SIDE))),
         "wait" => wait(rest).ok_or_else(|| form("MILLISECONDS up to 60000, or nothing")),
         "shot" if rest.is_empty() => Err("a picture needs a name; write shot FILE.png".to_owned()),
         "shot" => Ok(Step::Shot(path(rest))),

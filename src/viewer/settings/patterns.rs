@@ -17,6 +17,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::geometry::subpixel::SubpixelGrid;
 use crate::plain;
 use crate::raster::{CustomPattern, CustomSample, CustomWords, SamplePattern};
 use crate::viewer::settings::document::{self, Found, Mistake, mistake, place, short};
@@ -26,7 +27,7 @@ const MOST_KIB: u64 = 64;
 /// Longest description or source, in bytes.
 const LONGEST_WORDS: usize = 200;
 /// Points of the lattice along one side of a pixel.
-const LATTICE: f64 = 256.0;
+const LATTICE: f64 = SubpixelGrid::FINE_SIDE as f64;
 /// What a pattern is called that is no name.
 pub(super) const FORM: &str = "NAME:X/Y+X/YxWEIGHT in 1/256 of a pixel, or a TOML file of samples";
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::viewer::chrome::Dialog;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::recipes::Recipes;
+use crate::viewer::export::naming::names_to_try;
 use crate::viewer::export::saver::Work;
 use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview::SheetQuestion;
@@ -37,13 +38,10 @@ impl Viewer {
     /// A file that does not exist yet, for the picture that is shown: named like its scene, where the last one was saved.
     /// `None` without a scene.
     pub fn new_picture_path(&self) -> Option<PathBuf> {
-        /// Names that are tried.
-        const ATTEMPTS: u32 = 1000;
         let name = output_name(&self.scene_list.current()?.label);
         let stem = name.strip_suffix(".png").unwrap_or(&name);
         let folder = self.export.saver.folder_to_show();
-        let names = std::iter::once(format!("{stem}.png")).chain((2..=ATTEMPTS).map(|n| format!("{stem}-{n}.png")));
-        let mut paths = names.map(|name| folder.join(name));
+        let mut paths = names_to_try(stem).map(|name| folder.join(format!("{name}.png")));
         let path = paths.find(|path| !path.exists())?;
         Some(path.strip_prefix(".").map_or_else(|_| path.clone(), Path::to_owned))
     }

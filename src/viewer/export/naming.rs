@@ -5,6 +5,15 @@ use crate::viewer::export::spec::PictureSpec;
 /// The longest name without number and ending, in characters.
 const MOST: usize = 120;
 
+/// Names that are tried for one file: others may have been saved in the same millisecond.
+const ATTEMPTS: u32 = 1000;
+
+/// Names without ending for a new file, to be tried in turn: `stem`, then `stem-2` and so on.
+pub(in crate::viewer) fn names_to_try(stem: &str) -> impl Iterator<Item = String> {
+    let numbered = (2..=ATTEMPTS).map(move |number| format!("{stem}-{number}"));
+    std::iter::once(stem.to_owned()).chain(numbered)
+}
+
 /// How screenshots are called, without the ending: words and fields such as `{scene}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameTemplate(Vec<Part>);
@@ -139,6 +148,13 @@ mod tests {
     use crate::render::RenderSettings;
     use crate::scene::DialectChoice;
     use crate::viewer::SceneSource;
+
+    #[test]
+    fn names_are_tried_as_they_are_and_then_by_number() {
+        let names: Vec<String> = names_to_try("a.b").collect();
+        assert_eq!(names[..3], ["a.b", "a.b-2", "a.b-3"], "a name may hold points");
+        assert_eq!(names.last().map(String::as_str), Some("a.b-1000"), "and then no more");
+    }
 
     #[test]
     fn names_are_filled_in_and_harmless() {

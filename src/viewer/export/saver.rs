@@ -14,15 +14,12 @@ use crate::raster::Framebuffer;
 use crate::render::Legend;
 use crate::scene::Scene;
 use crate::viewer::chrome::messages::Messages;
-use crate::viewer::export::naming::NameTemplate;
+use crate::viewer::export::naming::{NameTemplate, names_to_try};
 use crate::viewer::export::sheet::saving::SheetJob;
 use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
-
-/// Names that are tried for one picture: others may have been saved in the same millisecond.
-const ATTEMPTS: u32 = 1000;
 
 /// Largest file of a time zone that is read, in bytes.
 const MAX_ZONE: u64 = 1 << 20;
@@ -266,12 +263,8 @@ fn save_new(
 ) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with \"Save picture as\" or --screenshot-dir";
     let stem = name.name(recipe.map(|recipe| &recipe.spec), &now());
-    for attempt in 1..=ATTEMPTS {
-        let name = match attempt {
-            1 => format!("{stem}.png"),
-            _ => format!("{stem}-{attempt}.png"),
-        };
-        let path = folder.join(name);
+    for name in names_to_try(&stem) {
+        let path = folder.join(format!("{name}.png"));
         let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
         let record = recipe.map(|recipe| recipe.record(&path));
         let bytes = encode_png(picture, record.as_ref())

@@ -4,11 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::figure::{Destination, Guard, Unwritable};
+use crate::viewer::export::naming::names_to_try;
 use crate::viewer::export::sheet::preview::SheetQuestion;
 use crate::viewer::export::spec::PictureSpec;
-
-/// Names that are tried for one sheet.
-const ATTEMPTS: u32 = 1000;
 
 /// A sheet to be saved.
 pub(in crate::viewer) struct SheetJob {
@@ -69,11 +67,7 @@ impl SheetJob {
 
 /// Makes the folder of the panels, which nothing of that name keeps from being new.
 fn claimed(folder: &Path, stem: &str) -> io::Result<PathBuf> {
-    for attempt in 1..=ATTEMPTS {
-        let name = match attempt {
-            1 => stem.to_owned(),
-            _ => format!("{stem}-{attempt}"),
-        };
+    for name in names_to_try(stem) {
         let panels = folder.join(name);
         let panels = panels.strip_prefix(".").unwrap_or(&panels).to_owned();
         if picture_beside(&panels).symlink_metadata().is_ok() {

@@ -127,8 +127,9 @@ impl SubpixelGrid {
     }
 }
 
-/// `1.5 * 2^52`: at this size a 64-bit float holds whole numbers only, the lowest 32 bits of which are an `i32`.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
+/// `1.5 * 2^52`: at this size a 64-bit float holds whole numbers only. Adding it to a number rounds that to the nearest one, whose
+/// lowest bits are those of an integer; no machine needs a call for it.
+pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// To nearest, for values of `i32`; halves go up, so that shifting by whole units commutes with rounding.
 ///

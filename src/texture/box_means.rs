@@ -28,6 +28,7 @@ use super::summed_area::SummedAreaTable;
 use super::texel_blocks::EndlessLevel;
 use super::{TexelBox, UvMap, Wrap};
 use crate::color::Premultiplied16;
+use crate::geometry::subpixel::WHOLE;
 
 /// A level read by a box.
 #[derive(Clone, Copy, Debug)]
@@ -140,8 +141,6 @@ impl Borders {
     /// On an axis of so many texels, of boxes that are twice `half` long about these places.
     #[inline(always)]
     fn new(wrap: Wrap, side: u32, at: &[f64; LANES], half: f64) -> Self {
-        /// Adding this to a number rounds it to a whole one, which stands in the lowest bits.
-        const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
         let last = f64::from(side - 1);
         let side = f64::from(side);
         let mut found = Self {

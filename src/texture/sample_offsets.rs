@@ -4,6 +4,7 @@ use super::PixelSampling;
 use super::filter_plan::{Axis, GridLevel, Plan};
 use super::fixed_point::{MASS, MASS_BITS};
 use super::wrap::Endless;
+use crate::geometry::subpixel::WHOLE;
 
 /// The most samples along one side of a pixel.
 pub(super) const MAX_SIDE: usize = 16;
@@ -164,6 +165,5 @@ impl Offsets {
     reason = "an offset is two texels at most: 16 bits, which stand lowest"
 )]
 fn round(value: f64) -> i16 {
-    const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
     (value + WHOLE).to_bits() as i16
 }

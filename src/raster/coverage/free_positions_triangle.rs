@@ -18,7 +18,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, u64x8};
 
 use crate::geometry::edge::{SampleEdge, doubled_area};
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid, WHOLE};
 use crate::raster::coverage::edge_bounds::{Line, MARGIN, TileRows};
 use crate::raster::coverage::sample_lanes::{EdgeGains, EdgeSteps, SampleBlock, SampleLanes};
 use crate::raster::sampling::positions::Position;
@@ -360,7 +360,6 @@ fn ends_of<S: Simd>(line: Line, coordinates: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
 /// there is no instruction for it.
 #[inline(always)]
 fn nearest<S: Simd>(values: f64x8<S>) -> f64x8<S> {
-    const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
     values + WHOLE
 }
 

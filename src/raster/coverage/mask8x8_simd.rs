@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f64x8, i32x8, mask64x8, u32x8};
 use glam::DVec2;
 
-use crate::geometry::subpixel::{GUARD, SubpixelGrid};
+use crate::geometry::subpixel::{GUARD, SubpixelGrid, WHOLE};
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::span::SpanRect;
 use crate::rules::Rules;
@@ -275,9 +275,6 @@ fn masks<S: Simd>(simd: S, [a, b, c]: [Edge<S>; 3]) -> u32x8<S> {
     }
     (!outside & i32x8::splat(simd, 0x0F0F_0F0F)).bitcast()
 }
-
-/// `1.5 * 2^52`: at this size a 64-bit float holds whole numbers only, the lowest 32 bits of which are an `i32`.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Whole numbers of `i32`, whose lower halves are taken from others.
 #[inline(always)]

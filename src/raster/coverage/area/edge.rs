@@ -1,6 +1,6 @@
 //! An edge in fine fixed-point numbers, and where it crosses rows and columns of pixels.
 
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid, WHOLE};
 
 /// Fractional bits of the coordinates in which areas are measured.
 pub(super) const BITS: u32 = 20;
@@ -66,10 +66,9 @@ pub(super) fn ordered(a: i64, b: i64) -> [i64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// To the nearest whole number, for values far below `2^51`: at this size a 64-bit float holds whole numbers only.
+/// To the nearest whole number, for values far below `2^51`.
 #[inline]
 pub(super) fn rounded(value: f64) -> i64 {
-    const WHOLE: f64 = 6_755_399_441_055_744.0;
     (value + WHOLE).to_bits().cast_signed() - WHOLE.to_bits().cast_signed()
 }
 

@@ -11,6 +11,19 @@ use rasterscope::raster::Framebuffer;
 use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
+/// A board of a small picture, as a table.
+const BOARD: [&str; 9] = [
+    "board",
+    "a.svg",
+    "--csv",
+    "--frames",
+    "1",
+    "--size",
+    "40x30",
+    "--region",
+    "0,0,40,30",
+];
+
 const SCENE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30">
   <polygon points="2,3 37,9 11,28" fill="#123456"/>
 </svg>"##;
@@ -238,20 +251,7 @@ fn cli_sweeps_and_boards_take_patterns_from_files() {
         "{}",
         chart.command_line
     );
-    let board = |more: &[&str]| {
-        let first = [
-            "board",
-            "a.svg",
-            "--csv",
-            "--frames",
-            "1",
-            "--size",
-            "40x30",
-            "--region",
-            "0,0,40,30",
-        ];
-        done(folder.path(), &[&first, more].concat())
-    };
+    let board = |more: &[&str]| done(folder.path(), &[&BOARD[..], more].concat());
     let varied = board(&["--vary", "pattern=grid,own.toml"]);
     assert!(varied.contains("3,own"), "{varied}");
     let added = board(&["--with", "A", "--with", "rules float, pattern own.toml"]);
@@ -367,19 +367,8 @@ fn cli_files_of_patterns_may_have_commas_in_their_names() {
     done(folder.path(), &[&sheet[..], &list].concat());
     let told = fs::read_to_string(folder.path().join("s/figures.md")).unwrap();
     assert!(told.contains("grid (1 sample), own (3 samples)"), "in a list: {told}");
-    let board = [
-        "board",
-        "a.svg",
-        "--csv",
-        "--frames",
-        "1",
-        "--size",
-        "40x30",
-        "--region",
-        "0,0,40,30",
-    ];
     let with = ["--with", "rules float, pattern \"my,own.toml\""];
-    let added = done(folder.path(), &[&board[..], &with].concat());
+    let added = done(folder.path(), &[&BOARD[..], &with].concat());
     assert!(added.contains("3,own"), "among settings: {added}");
 }
 

@@ -1,15 +1,14 @@
 //! Hints about seams: they say what a pixel's samples show, and are silent where neighbours meet as they should.
 
 use rasterscope::geometry::View as SceneView;
-use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::SampleRate;
-use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, ReadOptions};
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
-use crate::support::explaining::advised;
+use crate::support::explaining::{advised, advised_in};
 
 const TWICE: &str = "a line belongs to both";
 const GAP: &str = "leaves a gap of";
@@ -158,7 +157,7 @@ fn seams_scene_shows_seams_by_the_courses_rules_only() {
         dialect: DialectChoice::Auto,
     };
     let scene = scene::read(scene.document.as_bytes(), scene.name, options, &Textures).unwrap();
-    for (size, view) in [
+    for (size, from) in [
         ([1280, 800], SceneView::Default),
         ([1024, 1024], SceneView::Default),
         (
@@ -170,7 +169,7 @@ fn seams_scene_shows_seams_by_the_courses_rules_only() {
             },
         ),
     ] {
-        let view = view.transform(scene.canvas, size);
+        let view = from.transform(scene.canvas, size);
         for samples in [1, 4, 16] {
             let draw = |rules| {
                 let mut frame = rasterscope::raster::Framebuffer::new(size[0], size[1]);
@@ -195,19 +194,9 @@ fn seams_scene_shows_seams_by_the_courses_rules_only() {
             });
             let pixel = pixel.unwrap();
             let told = |rules| {
-                let settings = settings(rules, samples);
-                let subject = Subject {
-                    scene: &scene,
-                    view: &view,
-                    settings: &settings,
-                };
-                let question = Question {
-                    subject,
-                    file: "scene.svg",
-                    size,
-                    pixel,
-                };
-                Explanation::advised(&question).unwrap().hints().concat()
+                advised_in(&scene, &settings(rules, samples), (from, size), pixel)
+                    .hints()
+                    .concat()
             };
             assert!(
                 told(Rules::Course).contains(TWICE),

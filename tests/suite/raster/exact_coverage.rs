@@ -12,7 +12,7 @@ use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::explaining::advised;
-use crate::support::scenes::{at_rate, drawn};
+use crate::support::scenes::{at_rate, drawn, rmse};
 
 const SIZE: [u32; 2] = [512, 384];
 
@@ -51,19 +51,6 @@ fn sampled(samples: u32) -> RenderSettings {
 
 fn picture(scene: &Scene, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
     drawn(scene, &View::Canvas.transform(scene.canvas, size), settings, size)
-}
-
-fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
-    let bytes = |frame: &Framebuffer| {
-        frame
-            .pixels()
-            .iter()
-            .flat_map(|pixel| pixel.to_be_bytes())
-            .collect::<Vec<_>>()
-    };
-    let (a, b) = (bytes(a), bytes(b));
-    let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
-    (sum / a.len() as f64).sqrt()
 }
 
 #[test]

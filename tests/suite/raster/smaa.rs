@@ -10,7 +10,7 @@ use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_onto, draw_
 use rasterscope::rules::Rules;
 use rasterscope::viewer::gallery::SCENES;
 
-use crate::support::scenes::{at_rate, drawn, gallery_scene};
+use crate::support::scenes::{at_rate, drawn, gallery_scene, rmse};
 use crate::support::smaa::Picture;
 
 const SIZE: [u32; 2] = [200, 160];
@@ -155,17 +155,6 @@ fn smaa_leaves_the_truth_and_other_pictures_alone() {
     };
     let [plain, processed] = PostProcess::ALL.map(|process| drawn(&scene, &view, &shown(process), SIZE));
     assert!(plain == processed, "numbers in false colours are not blended");
-}
-
-/// Root of the mean square of what channels differ by.
-fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
-    let mut sum = 0.0;
-    for (a, b) in a.pixels().iter().zip(b.pixels()) {
-        for (a, b) in a.to_be_bytes().iter().zip(b.to_be_bytes()) {
-            sum += f64::from(a.abs_diff(b)).powi(2);
-        }
-    }
-    (sum / (4 * a.pixels().len()) as f64).sqrt()
 }
 
 #[test]

@@ -2,13 +2,14 @@
 //! what explanations say of both.
 
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Question};
+use rasterscope::inspect::Explanation;
 use rasterscope::raster::{Framebuffer, SampleRate};
-use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::render::RenderSettings;
 use rasterscope::scene::Scene;
 use rasterscope::texture::{FixedLevel, LevelOfDetail, LevelSampling, PixelSampling, Wrap};
 
-use crate::support::scenes::{at_rate, drawn, gallery_scene};
+use crate::support::explaining::advised_in;
+use crate::support::scenes::{at_rate, drawn, gallery_scene, rmse};
 
 /// One pixel per unit.
 const SIZE: [u32; 2] = [512, 512];
@@ -33,30 +34,8 @@ fn with(pixel_sampling: PixelSampling) -> RenderSettings {
     }
 }
 
-fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
-    let mut sum = 0.0;
-    for (a, b) in a.pixels().iter().zip(b.pixels()) {
-        for (a, b) in a.to_be_bytes().iter().zip(b.to_be_bytes()) {
-            sum += f64::from(a.abs_diff(b)).powi(2);
-        }
-    }
-    (sum / (4 * a.pixels().len()) as f64).sqrt()
-}
-
 fn explained(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
-    let view = view(scene).transform(scene.canvas, SIZE);
-    let subject = Subject {
-        scene,
-        view: &view,
-        settings,
-    };
-    let question = Question {
-        subject,
-        file: "scene.svg",
-        size: SIZE,
-        pixel,
-    };
-    Explanation::advised(&question).expect("inside")
+    advised_in(scene, settings, (view(scene), SIZE), pixel)
 }
 
 /// All that is said, in one line.

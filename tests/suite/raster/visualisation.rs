@@ -4,7 +4,7 @@
 use rasterscope::color::Colormap;
 use rasterscope::figure::{PixelRect, add_legends, place_legends};
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Interpolated, Question, Texture as ReadTexture, View as ViewOfSample};
+use rasterscope::inspect::{Interpolated, Texture as ReadTexture, View as ViewOfSample};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
 use rasterscope::rules::Rules;
@@ -14,6 +14,7 @@ use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
 use crate::support::documents::{read, svg};
+use crate::support::explaining::explained;
 use crate::support::golden::check;
 
 /// What a colour may be off: it is stored in bytes, and `(u, v)` comes in steps of 1/256.
@@ -329,24 +330,12 @@ fn compare_with_explanations(name: &str, sampling: RenderSettings) {
         ..sampling
     };
     let shown = Shown::new(&scene, &settings, size);
-    let view = View::Default.transform(scene.canvas, size);
-    let subject = Subject {
-        scene: &scene,
-        view: &view,
-        settings: &settings,
-    };
     let mut seen = 0;
     for pixel in (0..SIDE)
         .step_by(5)
         .flat_map(|y| (0..SIDE).step_by(5).map(move |x| [x, y]))
     {
-        let question = Question {
-            subject,
-            file: "scene.svg",
-            size,
-            pixel,
-        };
-        let explanation = Explanation::new(&question).unwrap();
+        let explanation = explained(&scene, &settings, size, pixel);
         let Some(top) = explanation.samples[0].stack.last() else {
             continue;
         };

@@ -1,16 +1,12 @@
 //! Style sheets and styles in the dialect `svg`, and letters along paths.
 
 use rasterscope::color::Rgba;
-use rasterscope::scene::{DialectChoice, Fill, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
 
-use crate::support::documents::{area, kinds, lines, read, svg};
+use crate::support::documents::{area, kinds, lines, svg_scene};
 
 const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
 const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
-
-fn svg_scene(body: &str) -> Scene {
-    read(&svg("width='100' height='100'", body), DialectChoice::Svg)
-}
 
 /// The colour of the first thing that is drawn.
 fn color(scene: &Scene) -> Rgba {

@@ -4,11 +4,7 @@ use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
 use rasterscope::scene::{Composite, DialectChoice, Fill, MaskKind, Paint, PrimitiveKind, Scene};
 
-use crate::support::documents::{area, kinds, lines, read, svg, try_read};
-
-fn svg_scene(body: &str) -> Scene {
-    read(&svg("width='100' height='100'", body), DialectChoice::Svg)
-}
+use crate::support::documents::{area, kinds, lines, read, svg, svg_scene, try_read};
 
 /// Area and colour of a scene in one colour.
 fn filled(body: &str) -> (f64, Rgba) {

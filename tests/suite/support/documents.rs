@@ -17,6 +17,11 @@ pub(crate) fn read(document: &str, dialect: DialectChoice) -> Scene {
     try_read(document.as_bytes(), dialect).expect("a scene")
 }
 
+/// The scene of a document of 100 x 100 units in the dialect `svg`, with this inside.
+pub(crate) fn svg_scene(body: &str) -> Scene {
+    read(&svg("width='100' height='100'", body), DialectChoice::Svg)
+}
+
 /// The primitives without their shapes.
 pub(crate) fn kinds(scene: &Scene) -> Vec<PrimitiveKind> {
     scene

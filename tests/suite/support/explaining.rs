@@ -7,7 +7,17 @@ use rasterscope::scene::Scene;
 
 /// Why one pixel of the whole canvas, as a picture of `size` pixels, has its colour, and what would help.
 pub(crate) fn advised(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
-    told(scene, settings, (View::Canvas, size), pixel, Explanation::advised)
+    advised_in(scene, settings, (View::Canvas, size), pixel)
+}
+
+/// As [`advised`], of the picture from any view.
+pub(crate) fn advised_in(
+    scene: &Scene,
+    settings: &RenderSettings,
+    shown: (View, [u32; 2]),
+    pixel: [u32; 2],
+) -> Explanation {
+    told(scene, settings, shown, pixel, Explanation::advised)
 }
 
 /// As [`advised`], of the picture that is drawn where no view is asked for.
@@ -17,7 +27,7 @@ pub(crate) fn advised_by_default(
     size: [u32; 2],
     pixel: [u32; 2],
 ) -> Explanation {
-    told(scene, settings, (View::Default, size), pixel, Explanation::advised)
+    advised_in(scene, settings, (View::Default, size), pixel)
 }
 
 /// As [`advised`], of the picture that is drawn where no view is asked for, without what would help.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DAffine2, DVec2, Vec2};
 use rasterscope::color::{BlendMode, Ramp, Rgba, Spread, Stop};
+use rasterscope::compare::Pair;
 use rasterscope::geometry::{FillRule, GradientShape, Polygon, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, draw};
@@ -78,6 +79,11 @@ pub(crate) fn drawn(scene: &Scene, view: &ViewTransform, settings: &RenderSettin
     let mut frame = Framebuffer::new(size[0], size[1]);
     draw(scene, view, settings, &mut frame);
     frame
+}
+
+/// Root of the mean square of what the channels of two frames differ by, in levels.
+pub(crate) fn rmse(a: &Framebuffer, b: &Framebuffer) -> f64 {
+    Pair::new(a, b).expect("one size").levels().rmse()
 }
 
 /// A texture in which every texel differs from its neighbours; translucent ones among them if asked for.

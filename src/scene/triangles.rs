@@ -18,6 +18,9 @@ pub(super) struct Element<'doc> {
     pub(super) to_user: DAffine2,
 }
 
+/// Three corners in user space, and what each has.
+pub(super) type Corners<T> = ([DVec2; 3], [T; 3]);
+
 /// File names of the textures by their `texid`.
 #[derive(Debug)]
 pub(super) struct TextureFiles<'doc>(HashMap<&'doc str, &'doc str>);
@@ -32,17 +35,28 @@ impl<'doc> TextureFiles<'doc> {
         };
         Self(textures.map(entry).collect())
     }
+
+    /// The address of the texture that a `textri` shows.
+    pub(super) fn of(&self, node: Node<'doc, 'doc>) -> &'doc str {
+        let name = node.attribute("texid").unwrap_or("");
+        self.0.get(name).copied().unwrap_or("")
+    }
 }
 
 /// A triangle with a colour at each corner.
 pub(super) fn colortri(builder: &mut Builder<'_>, element: Element<'_>, opacity: f32) -> Result<(), Fault> {
-    let colors = corner_colors(builder, element.node)?;
-    let points = corners(builder, element)?;
-    let (Some(points), Some(colors)) = (points, colors) else {
+    let Some((points, colors)) = colored(builder, element)? else {
         return Ok(());
     };
     let paint = Paint::Vertex(colors.map(|color| color.faded(opacity)));
     builder.triangle(element.shape, points, paint)
+}
+
+/// Its corners and their colours; nothing where it is not drawn.
+pub(super) fn colored(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<Corners<Rgba>>, Fault> {
+    let colors = corner_colors(builder, element.node)?;
+    let points = corners(builder, element)?;
+    Ok(points.zip(colors))
 }
 
 /// A triangle with a texture coordinate at each corner.
@@ -52,17 +66,20 @@ pub(super) fn textri<'doc>(
     files: &TextureFiles<'doc>,
     opacity: f32,
 ) -> Result<(), Fault> {
-    let uv = corner_uvs(builder, element.node)?;
-    let points = corners(builder, element)?;
-    let (Some(points), Some(uv)) = (points, uv) else {
+    let Some((points, uv)) = mapped(builder, element)? else {
         return Ok(());
     };
-    let name = element.node.attribute("texid").unwrap_or("");
-    let file = files.0.get(name).copied().unwrap_or("");
-    let Some(texture) = texture(builder, element.node, file) else {
+    let Some(texture) = texture(builder, element.node, files.of(element.node)) else {
         return Ok(());
     };
     builder.triangle(element.shape, points, Paint::Texture { texture, uv, opacity })
+}
+
+/// Its corners and where they lie in the texture; nothing where it is not drawn.
+pub(super) fn mapped(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<Corners<Vec2>>, Fault> {
+    let uv = corner_uvs(builder, element.node)?;
+    let points = corners(builder, element)?;
+    Ok(points.zip(uv))
 }
 
 /// The texture at `address`, or a warning that there are too many.

@@ -22,6 +22,8 @@ pub(super) struct Elements<'doc> {
     prefix: String,
     given: Vec<Node<'doc, 'doc>>,
     own: HashMap<&'doc str, Node<'doc, 'doc>>,
+    /// The course's triangles, by their numbers.
+    triangles: Vec<Node<'doc, 'doc>>,
 }
 
 impl<'doc> Elements<'doc> {
@@ -43,6 +45,7 @@ impl<'doc> Elements<'doc> {
             prefix: format!("_{number}_"),
             given: Vec::new(),
             own,
+            triangles: Vec::new(),
         }
     }
 
@@ -53,6 +56,17 @@ impl<'doc> Elements<'doc> {
         }
         self.given.push(node);
         Some(format!("{}{}", self.prefix, self.given.len() - 1))
+    }
+
+    /// Numbers a triangle of the course.
+    pub(super) fn add_triangle(&mut self, node: Node<'doc, 'doc>) -> usize {
+        self.triangles.push(node);
+        self.triangles.len() - 1
+    }
+
+    /// The course's triangles, by their numbers.
+    pub(super) fn triangles(&self) -> &[Node<'doc, 'doc>] {
+        &self.triangles
     }
 
     /// An address of ours, that no document has.

@@ -21,6 +21,7 @@ mod listener;
 mod marked;
 mod mended;
 mod nonsense;
+mod own_triangles;
 mod paint;
 mod painter;
 mod pictures;

@@ -4,9 +4,10 @@ use glam::DAffine2;
 use roxmltree::Node;
 use usvg::{ClipPath, Group, Image, ImageKind, ImageRendering, Path};
 
-use super::painter::{Painter, Place, affine};
+use super::own_triangles::{self, Drawn};
+use super::painter::{Inside, Painter, Place, affine};
 use super::pictures::{self, Picture};
-use super::{clip, prepare, reach, shapes};
+use super::{clip, reach, shapes};
 use crate::color::BlendMode;
 use crate::geometry::{CurvedArea, FillRule};
 use crate::scene::build::{Edges, FilledArea, unit_square};
@@ -119,13 +120,14 @@ impl<'doc> Painter<'_, 'doc> {
         if !path.is_visible() {
             return Ok(());
         }
-        if let Some(node) = self
-            .elements
-            .find(path.id())
-            .filter(|node| prepare::is_own_triangle(*node))
-            && self.inside.is_none()
-        {
-            return self.own_triangle(node, place);
+        if let Some(number) = own_triangles::number(path) {
+            let drawn = self.inside.map(|inside| inside.triangles.get(number));
+            let own = self.elements.triangles().get(number).copied();
+            match (drawn, own) {
+                (Some(Some(drawn)), _) => return self.drawn_triangle(drawn.as_ref(), place),
+                (None, Some(node)) => return self.own_triangle(node, place),
+                _ => {}
+            }
         }
         match path.paint_order() {
             usvg::PaintOrder::FillAndStroke => {
@@ -139,16 +141,38 @@ impl<'doc> Painter<'_, 'doc> {
         }
     }
 
+    /// A triangle of the course, wherever it is shown; what is wrong with it is told once.
     fn own_triangle(&mut self, node: Node<'doc, 'doc>, place: Place) -> Result<(), Fault> {
         let element = Element {
             node,
             shape: place.shape,
             to_user: place.to_user,
         };
-        match node.tag_name().name() {
+        let is_told = !self.told.insert(node.id());
+        let report = is_told.then(|| std::mem::take(&mut self.builder.report));
+        let painted = match node.tag_name().name() {
             "colortri" => triangles::colortri(self.builder, element, place.opacity),
             _ => triangles::textri(self.builder, element, &self.texture_files, place.opacity),
+        };
+        if let Some(report) = report {
+            self.builder.report = report;
         }
+        painted
+    }
+
+    /// One of a document inside an image.
+    fn drawn_triangle(&mut self, drawn: Option<&Drawn>, place: Place) -> Result<(), Fault> {
+        let Some((points, paint)) = drawn else {
+            return Ok(());
+        };
+        let points = points.map(|point| place.to_user.transform_point2(point));
+        let opacity = place.opacity;
+        let paint = match *paint {
+            Paint::Solid(color) => Paint::Solid(color.faded(opacity)),
+            Paint::Vertex(colors) => Paint::Vertex(colors.map(|color| color.faded(opacity))),
+            Paint::Texture { texture, uv, .. } => Paint::Texture { texture, uv, opacity },
+        };
+        self.builder.triangle(place.shape, points, paint)
     }
 
     fn fill(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
@@ -282,8 +306,9 @@ impl<'doc> Painter<'_, 'doc> {
                 }
                 Ok(())
             }
-            Some(Picture::Document(tree)) => {
-                let outer = self.inside.replace(place.shape);
+            Some(Picture::Document(tree, triangles)) => {
+                let image = place.shape;
+                let outer = self.inside.replace(Inside { image, triangles });
                 let painted = self.nested(tree, place);
                 self.inside = outer;
                 painted

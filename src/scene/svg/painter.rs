@@ -1,6 +1,6 @@
 //! What is needed to paint one document, and where it is painted.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -8,6 +8,7 @@ use glam::DAffine2;
 use roxmltree::Node;
 
 use super::elements::Elements;
+use super::own_triangles::Drawn;
 use super::pictures::Picture;
 use super::styles::Effects;
 use crate::color::Rgba;
@@ -26,14 +27,25 @@ pub(super) struct Painter<'a, 'doc> {
     pub(super) scale: f64,
     pub(super) servers: Servers,
     pub(super) texture_files: TextureFiles<'doc>,
-    /// Inside an image that is a document: the image, to which everything belongs.
-    pub(super) inside: Option<ShapeId>,
+    /// Inside an image that is a document.
+    pub(super) inside: Option<Inside<'a>>,
     /// The `use` elements that are being shown, innermost last.
     pub(super) used: Vec<Used<'doc>>,
     /// The path that is being painted.
     pub(super) painting: Option<Node<'doc, 'doc>>,
     /// The shapes of elements that have one.
     pub(super) known: HashMap<roxmltree::NodeId, ShapeId>,
+    /// Triangles of the course of which everything is told.
+    pub(super) told: HashSet<roxmltree::NodeId>,
+}
+
+/// An image that is a document.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inside<'a> {
+    /// Everything belongs to it.
+    pub(super) image: ShapeId,
+    /// The document's own triangles, by their numbers.
+    pub(super) triangles: &'a [Option<Drawn>],
 }
 
 /// Where something is painted.
@@ -88,6 +100,7 @@ impl<'a, 'doc> Painter<'a, 'doc> {
             used: Vec::new(),
             painting: None,
             known: HashMap::new(),
+            told: HashSet::new(),
         }
     }
 }

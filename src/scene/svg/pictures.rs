@@ -14,6 +14,7 @@ use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 use super::families;
 use super::fonts::{self, Missing};
 use super::listener::Listener;
+use super::own_triangles::{self, Drawn};
 use super::{guarded, prepare, references};
 use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
@@ -32,8 +33,8 @@ const MISSING: [u32; 2] = [64; 2];
 pub(super) enum Picture {
     /// Pixels.
     Texture(TextureId),
-    /// A document, as usvg has it.
-    Document(Box<usvg::Tree>),
+    /// A document, as usvg has it, and its own triangles by their numbers.
+    Document(Box<usvg::Tree>, Vec<Option<Drawn>>),
 }
 
 /// What is loaded while usvg reads.
@@ -70,7 +71,7 @@ impl<'a, 'doc> Loading<'a, 'doc> {
                 let size = self.builder.textures.size(*texture).unwrap_or(MISSING);
                 size.map(|texels| texels as f32)
             }
-            Picture::Document(tree) => [tree.size().width(), tree.size().height()],
+            Picture::Document(tree, _) => [tree.size().width(), tree.size().height()],
         })
     }
 
@@ -78,7 +79,7 @@ impl<'a, 'doc> Loading<'a, 'doc> {
     fn kind(&self, number: usize) -> Option<ImageKind> {
         match self.pictures.get(number)? {
             Picture::Texture(texture) => Some(header(self.builder.textures.size(*texture).unwrap_or(MISSING), number)),
-            Picture::Document(tree) => empty_document(tree.size(), number),
+            Picture::Document(tree, _) => empty_document(tree.size(), number),
         }
     }
 }
@@ -199,7 +200,7 @@ fn numbered<'doc>(
         guard = lock(loading);
         guard.depth -= 1;
         match tree {
-            Ok(tree) => Some(guard.add(Picture::Document(Box::new(tree)))),
+            Ok((tree, triangles)) => Some(guard.add(Picture::Document(Box::new(tree), triangles))),
             Err(trouble) => {
                 let message = format!("image {}: {trouble}; it is not drawn", name_of(&address));
                 guard.builder.report.warn(location, message);
@@ -218,8 +219,12 @@ fn numbered<'doc>(
     number
 }
 
-/// usvg's tree of a document inside an image: it sees no other files.
-fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocation) -> Result<usvg::Tree, Fault> {
+/// usvg's tree of a document inside an image, and its own triangles: it sees no other files.
+fn nested(
+    loading: &Mutex<Loading<'_, '_>>,
+    bytes: &[u8],
+    location: SourceLocation,
+) -> Result<(usvg::Tree, Vec<Option<Drawn>>), Fault> {
     let unpacked = document::unpacked(bytes)?;
     let text = document::decode(&unpacked)?;
     let source = Source::new(&text)?;
@@ -243,7 +248,18 @@ fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocati
     };
     let options = options(fonts, loading, load);
     let tree = guarded::tree(&prepared.text, &options).map_err(Problem::nowhere)?;
-    tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())
+    let tree = tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())?;
+    let (triangles, report) = own_triangles::drawn(&source, prepared.elements.triangles(), |address| {
+        lock(loading).builder.textures.request(address.to_owned(), location)
+    })?;
+    let heard = &mut lock(loading).builder.report;
+    for skipped in report.skipped {
+        heard.skip(skipped.kind, &skipped.name, location);
+    }
+    for warning in report.warnings {
+        heard.warn(location, format!("in the image: {}", warning.message));
+    }
+    Ok((tree, triangles))
 }
 
 /// Hears of what a document in an image lacks, and tells it of the image.

@@ -10,7 +10,7 @@ use super::elements::Elements;
 use super::listener::Listener;
 use super::marked::Marks;
 use super::values::{self, WHITENS};
-use super::{cascade, mended, nonsense, sheets, styles, text_paths, viewports};
+use super::{cascade, mended, nonsense, own_triangles, sheets, styles, text_paths, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
@@ -318,7 +318,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
 
     /// Takes their names from values that usvg would make black of.
     fn hide_nonsense(&mut self, node: Node<'doc, 'doc>) {
-        if is_own_triangle(node) {
+        if own_triangles::is_one(node) {
             return;
         }
         nonsense::hide(self.text, node, &mut self.edits);
@@ -408,32 +408,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     fn triangle(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
         let points = numbers::all("points", node.attribute("points").unwrap_or(""))
             .map_err(|problem| self.listener.fault(problem, node, "points"))?;
-        let name = node.tag_name().name();
-        let end = self.name_end(node);
-        self.edits.replace(end - name.len()..end, "path".to_owned());
-        let range = node.range();
-        let closing = self.text[range.clone()]
-            .rfind("</")
-            .filter(|at| range.start + at >= end);
-        if let Some(at) = closing.filter(|_| !self.text[range.clone()].ends_with("/>")) {
-            let tag = range.start + at;
-            let name_at = tag + self.text[tag..range.end].rfind(name).unwrap_or(2);
-            self.edits.replace(name_at..name_at + name.len(), "path".to_owned());
-        }
-        // A path that is always painted: its own look is ours, everything around it is the document's.
-        let place = match points.first_chunk::<6>() {
-            Some([a, b, c, d, e, f]) => format!("M{a} {b}L{c} {d}L{e} {f}Z"),
-            None => "M0 0L1 0L0 1Z".to_owned(),
-        };
-        for own in node.attributes().filter(|attribute| attribute.name() == "d") {
-            self.edits.replace(own.range_qname(), "data-d".to_owned());
-        }
-        self.edits.insert(end, format!(" d=\"{place}\""));
-        let look = "fill:#000!important;stroke:none!important;marker:none!important;";
-        match node.attributes().find(|attribute| attribute.name() == "style") {
-            Some(style) => self.edits.insert(style.range_value().start, look.to_owned()),
-            None => self.edits.insert(end, format!(" style=\"{look}\"")),
-        }
+        let number = self.elements.add_triangle(node);
+        own_triangles::disguise(self.text, node, (number, &points), &mut self.edits);
         Ok(())
     }
 
@@ -467,9 +443,4 @@ fn is_fallen_back(node: Node<'_, '_>) -> bool {
     node.parent_element()
         .is_some_and(|parent| parent.tag_name().name() == "switch")
         && node.next_sibling_element().is_some()
-}
-
-/// Whether this is a triangle of the course.
-pub(super) fn is_own_triangle(node: Node<'_, '_>) -> bool {
-    matches!(node.tag_name().name(), "colortri" | "textri")
 }

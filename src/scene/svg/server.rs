@@ -1,6 +1,6 @@
 //! Paint servers: gradients and patterns, each once however many shapes it fills.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use roxmltree::Node;
 use usvg::{BaseGradient, LinearGradient, Paint, RadialGradient};
 
 use super::elements::Elements;
-use super::painter::{Key, Painter, Place, Servers, affine, color};
+use super::painter::{Inside, Key, Painter, Place, Servers, affine, color};
 use super::references;
 use crate::color::{Ramp, Spread, Stop};
 use crate::geometry::GradientShape;
@@ -155,18 +155,22 @@ impl<'doc> Painter<'_, 'doc> {
         let (root, elements, pictures) = (self.root, self.elements, self.pictures);
         let image = self
             .inside
-            .and_then(|image| builder.shapes.get(image.0 as usize).cloned());
+            .and_then(|inside| Some((builder.shapes.get(inside.image.0 as usize)?.clone(), inside.triangles)));
         let names = std::mem::take(&mut self.servers.names);
         let effects = Rc::clone(&self.effects);
-        let mut names_back = HashMap::new();
+        let told = std::mem::take(&mut self.told);
+        let mut back = (HashMap::new(), HashSet::new());
         let drawn = builder.apart(size, |builder| {
             let mut painter = Painter::new(builder, root, elements, pictures, scale);
             painter.servers.names = names;
             painter.effects = effects;
+            painter.told = told;
             let shape = match image {
-                Some(image) => {
-                    painter.builder.shapes.push(image);
-                    *painter.inside.insert(ShapeId(0))
+                Some((shape, triangles)) => {
+                    painter.builder.shapes.push(shape);
+                    let image = ShapeId(0);
+                    painter.inside = Some(Inside { image, triangles });
+                    image
                 }
                 None => painter.shape(root),
             };
@@ -176,10 +180,10 @@ impl<'doc> Painter<'_, 'doc> {
                 opacity: 1.0,
             };
             let painted = painter.children(pattern.root(), place);
-            names_back = std::mem::take(&mut painter.servers.names);
+            back = (std::mem::take(&mut painter.servers.names), painter.told);
             painted
         });
-        self.servers.names = names_back;
+        (self.servers.names, self.told) = back;
         let tile = Some(drawn?).filter(|scene| !scene.primitives.is_empty()).map(Arc::new);
         self.servers.tiles.insert(key, tile.clone());
         Ok(tile)

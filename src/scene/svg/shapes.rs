@@ -19,8 +19,8 @@ const MAX_USED: usize = 10_000;
 impl<'doc> Painter<'_, 'doc> {
     /// The shape of an element, the same for all that is painted for it.
     pub(super) fn shape(&mut self, node: Node<'doc, 'doc>) -> ShapeId {
-        if let Some(shape) = self.inside {
-            return shape;
+        if let Some(inside) = self.inside {
+            return inside.image;
         }
         let builder = &mut *self.builder;
         *self.known.entry(node.id()).or_insert_with(|| builder.shape(node))

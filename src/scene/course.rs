@@ -5,6 +5,7 @@
 
 use glam::{DAffine2, DVec2};
 use roxmltree::{Children, Node};
+use svgtypes::Length;
 
 use super::build::{Area, Builder, unit_square};
 use super::error::Fault;
@@ -47,6 +48,17 @@ pub(super) fn is_read_otherwise(node: Node<'_, '_>) -> bool {
         || is_round(node)
 }
 
+/// Whether SVG would show another part of the drawing than a canvas of this size does.
+fn is_another_view(view_box: &str, canvas: DVec2) -> bool {
+    let numbers = numbers::all("viewBox", view_box).unwrap_or_default();
+    let [x, y, width, height] = numbers.as_slice() else {
+        return false;
+    };
+    let has_area = *width > 0.0 && *height > 0.0;
+    let [corner, size] = [[*x, *y], [*width, *height]].map(|pair| DVec2::from(pair.map(f64::from)));
+    has_area && (corner != DVec2::ZERO || size != canvas)
+}
+
 /// Whether a rect asks for round corners.
 fn is_round(node: Node<'_, '_>) -> bool {
     node.tag_name().name() == "rect" && ["rx", "ry"].iter().any(|name| node.has_attribute(*name))
@@ -66,11 +78,23 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
             builder,
             texture_files: TextureFiles::below(root),
         };
+        let canvas = reader.canvas(root)?;
         reader.groups(root)?;
-        Ok(DVec2::new(
-            reader.number(root, "width")?,
-            reader.number(root, "height")?,
-        ))
+        Ok(canvas)
+    }
+
+    /// Width and height; tells of a `viewBox` that SVG would scale to them.
+    fn canvas(&mut self, root: Node<'doc, 'doc>) -> Result<DVec2, Fault> {
+        let canvas = self.point(root, ["width", "height"])?;
+        let text = root.attribute("viewBox").unwrap_or("");
+        if is_another_view(text, canvas) {
+            let message = format!(
+                "viewBox=\"{}\" has no effect; the dialect svg scales to it (--dialect svg)",
+                quote(text)
+            );
+            self.builder.warn(root, message);
+        }
+        Ok(canvas)
     }
 
     /// Walks the tree without recursion, so that no nesting is too deep.
@@ -246,9 +270,7 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let Some(text) = node.attribute(name) else {
             return Ok(1.0);
         };
-        let number =
-            numbers::leading(name, text).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)));
-        Ok(number?.unwrap_or(0.0).clamp(0.0, 1.0))
+        Ok(self.leading(node, name, text)?.unwrap_or(0.0).clamp(0.0, 1.0))
     }
 
     fn transform(&mut self, node: Node<'doc, 'doc>) -> Result<DAffine2, Fault> {
@@ -288,12 +310,27 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let Some(text) = node.attribute(name) else {
             return Ok(0.0);
         };
-        let number =
-            numbers::leading(name, text).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)))?;
+        let number = self.leading(node, name, text)?;
         if number.is_none() {
             self.builder
                 .warn(node, format!("{name}=\"{}\" is not a number; 0 is taken", quote(text)));
         }
         Ok(number.unwrap_or(0.0).into())
+    }
+
+    /// The number at the start of a text; tells where more follows than `px`.
+    fn leading(&mut self, node: Node<'doc, 'doc>, name: &str, text: &str) -> Result<Option<f32>, Fault> {
+        let number = numbers::leading(name, text);
+        let number = number.map_err(|problem| problem.at(self.builder.locate_attribute(node, name)))?;
+        if let Some(number) = number.filter(|_| !numbers::is_plain(text)) {
+            let cure = if text.trim().parse::<Length>().is_ok() {
+                "the dialect svg reads it as SVG does (--dialect svg)"
+            } else {
+                "write a number alone"
+            };
+            let message = format!("{name}=\"{}\" is read as {number}; {cure}", quote(text));
+            self.builder.warn(node, message);
+        }
+        Ok(number)
     }
 }

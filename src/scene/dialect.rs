@@ -277,8 +277,7 @@ fn begins_with_number(node: Node<'_, '_>, name: &str) -> bool {
 
 /// Whether the attribute is a number, perhaps of pixels: what the course's reader takes for one.
 fn has_number(node: Node<'_, '_>, name: &str) -> bool {
-    let text = node.attribute(name).unwrap_or("").trim();
-    text.strip_suffix("px").unwrap_or(text).parse::<f32>().is_ok()
+    numbers::is_plain(node.attribute(name).unwrap_or(""))
 }
 
 /// Whether the element's look is written so that the course's reader would show another one.

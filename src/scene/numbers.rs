@@ -18,6 +18,12 @@ pub(super) fn leading(attribute: &str, text: &str) -> Result<Option<f32>, Proble
     finite(number).map(Some).ok_or_else(|| too_large(attribute, text))
 }
 
+/// Whether `text` is one number and nothing else, but perhaps the unit of pixels.
+pub(super) fn is_plain(text: &str) -> bool {
+    let text = text.trim();
+    text.strip_suffix("px").unwrap_or(text).parse::<f32>().is_ok()
+}
+
 /// All numbers in `text`, separated by anything.
 ///
 /// # Errors
@@ -123,6 +129,20 @@ mod tests {
             ("1e-999", Some(0.0)),
         ] {
             assert_eq!(leading("a", text).expect("finite"), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn plain_numbers_have_no_unit_but_that_of_pixels() {
+        for (text, is) in [
+            (" 10 ", true),
+            ("-.5e1px", true),
+            ("10cm", false),
+            ("100%", false),
+            ("1,000", false),
+            ("", false),
+        ] {
+            assert_eq!(is_plain(text), is, "{text:?}");
         }
     }
 

@@ -8,7 +8,7 @@ use crate::support::documents::{area, kinds, lines, read, svg};
 
 fn course(body: &str) -> Scene {
     read(
-        &svg("width='100' height='80px' viewBox='0 0 7 7'", body),
+        &svg("width='100' height='80px' baseProfile='all'", body),
         DialectChoice::Course,
     )
 }
@@ -33,9 +33,50 @@ const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
 #[test]
 fn course_canvas_is_width_and_height() {
     let scene = course("");
-    assert_eq!(scene.canvas, DVec2::new(100.0, 80.0), "viewBox means nothing");
+    assert_eq!(scene.canvas, DVec2::new(100.0, 80.0), "as told");
     assert_eq!(scene.dialect, Dialect::Course, "as asked");
     assert!(scene.report.is_empty(), "{:?}", scene.report);
+}
+
+#[test]
+fn course_tells_of_views_and_units_that_it_does_not_know() {
+    let triangle = "<colortri points='0 0 1 0 0 1' colors='1 0 0 1 0 1 0 1 0 0 1 1'/>";
+    let cure = "(--dialect svg)";
+    for (attributes, canvas, told) in [
+        (
+            "width='100' height='80px' viewBox='0 0 7 7'",
+            [100.0, 80.0],
+            vec![format!(
+                "viewBox=\"0 0 7 7\" has no effect; the dialect svg scales to it {cure}"
+            )],
+        ),
+        (
+            "width='10cm' height='100%'",
+            [10.0, 100.0],
+            vec![
+                format!("width=\"10cm\" is read as 10; the dialect svg reads it as SVG does {cure}"),
+                format!("height=\"100%\" is read as 100; the dialect svg reads it as SVG does {cure}"),
+            ],
+        ),
+        (
+            "width='1,000' height='8'",
+            [1.0, 8.0],
+            vec!["width=\"1,000\" is read as 1; write a number alone".to_owned()],
+        ),
+        // Nothing that would make another picture.
+        (
+            "width='100px' height='80' viewBox='0,0,100.0,80'",
+            [100.0, 80.0],
+            vec![],
+        ),
+        ("width='9' height='9' viewBox='0 0 7'", [9.0, 9.0], vec![]),
+    ] {
+        let scene = read(&svg(attributes, triangle), DialectChoice::Auto);
+        assert_eq!(scene.dialect, Dialect::Course, "{attributes}");
+        assert_eq!(scene.canvas, DVec2::from(canvas), "{attributes}");
+        let told: Vec<String> = told.iter().map(|line| format!("1:1: {line}")).collect();
+        assert_eq!(lines(&scene), told, "{attributes}");
+    }
 }
 
 #[test]

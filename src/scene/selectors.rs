@@ -129,6 +129,29 @@ pub(super) fn comparisons(text: &str) -> Vec<Comparison<'_>> {
     found
 }
 
+/// Where the names of elements stand in the selectors of a document's style sheets.
+pub(super) fn names(text: &str) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    if !text.contains("style") {
+        return found;
+    }
+    let markup = Markup::of(text);
+    for head in markup.sheets.iter().flat_map(|sheet| heads(text, sheet.clone())) {
+        let selectors = &text[head.clone()];
+        let (mut depth, mut at, mut before) = (0, 0, ' ');
+        while let Some(c) = selectors[at..].chars().next() {
+            let rest = &selectors[at..];
+            let length = rest.find(|c| !is_in_name(c)).unwrap_or(rest.len()).max(c.len_utf8());
+            if depth == 0 && is_in_name(c) && !matches!(before, '.' | '#' | ':' | '|' | '\\') {
+                found.push(head.start + at..head.start + at + length);
+            }
+            depth += opened(&rest[..length]);
+            (before, at) = (c, at + length);
+        }
+    }
+    found
+}
+
 /// Selectors as the document writes them.
 pub(super) fn written(selectors: &str) -> String {
     let [root, plain] = ROOT_SELECTOR;
@@ -231,6 +254,14 @@ mod tests {
         for stays in ["<svg><a b='[c^=d]'>:root{}</a><style/></svg>", "<svg>[a^=b]{}</svg>"] {
             assert_eq!(rewritten(Cow::Borrowed(stays)), stays);
         }
+    }
+
+    #[test]
+    fn names_of_elements_are_found_beside_all_else() {
+        let text = "<svg><style>/* x */ a, b.c>d#e[f=g]:first-child + h:not(i) { j: k } @media l { m {} } .n o{}</style>\
+                    <style><![CDATA[p{}]]></style><text>q{}</text></svg>";
+        let found: Vec<&str> = names(text).into_iter().map(|name| &text[name]).collect();
+        assert_eq!(found, ["a", "b", "d", "h", "o", "p"]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::cascade::{Styled, is_missing};
 use super::elements::Elements;
-use super::{nonsense, values};
+use super::{nonsense, own_triangles, values};
 use crate::scene::edits::Edits;
 use crate::scene::numbers;
 
@@ -21,12 +21,18 @@ pub(super) fn trim_numbers(text: &str, node: Node<'_, '_>, styled: &Styled<'_>, 
         let raw = text.get(range.clone()).unwrap_or("");
         // A path's data may have it, and is changed elsewhere.
         let is_framed = raw.starts_with(SPACE) | raw.ends_with(SPACE);
-        let is_kept =
-            || name != "d" && values::is_numeric(name) && !nonsense::is_nonsense(name, raw.trim_matches(SPACE));
+        let is_kept = || {
+            !is_outline(node, name) && values::is_numeric(name) && !nonsense::is_nonsense(name, raw.trim_matches(SPACE))
+        };
         if is_framed && is_kept() {
             edits.replace(range, raw.trim_matches(SPACE).to_owned());
         }
     }
+}
+
+/// Whether an attribute is the outline of a path or a triangle.
+fn is_outline(node: Node<'_, '_>, name: &str) -> bool {
+    name == "d" || name == "points" && own_triangles::is_one(node)
 }
 
 /// Takes an element's filter out of the text where no filter has the id that it refers to: such a filter is none, and usvg would

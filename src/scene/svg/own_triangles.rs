@@ -1,5 +1,8 @@
 //! The course's triangles among what usvg reads: paths whose paint is the triangle's number.
 //!
+//! Style sheets may select triangles by their names, or paths by theirs. Then triangles are elements that are drawn as paths are and
+//! that no sheet selects, and selectors of theirs have that name.
+//!
 //! usvg drops the ids of what `use`, a marker or another document shows, and keeps paints. So the number lies in the colour, and an
 //! opacity that no document writes says that it is one.
 
@@ -11,6 +14,7 @@ use crate::scene::build::Builder;
 use crate::scene::document::{LineIndex, Source};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
+use crate::scene::selectors;
 use crate::scene::textures::{Alpha, TextureTable, is_data};
 use crate::scene::triangles::{self, Element, TextureFiles};
 use crate::scene::{NoResources, Paint, Progress, Report, ShapeId, TextureId};
@@ -37,34 +41,92 @@ pub(super) fn number(path: &Path) -> Option<usize> {
     usize::try_from(u32::from_be_bytes([0, *red, *green, *blue])).ok()
 }
 
-/// Makes a path of a triangle in `text`, by its number and the numbers of its corners. There are fewer triangles than colours.
-pub(super) fn disguise(text: &str, node: Node<'_, '_>, (number, points): (usize, &[f32]), edits: &mut Edits) {
-    let name = node.tag_name().name();
-    let range = node.range();
-    let tag = &text.as_bytes()[range.start + 1..];
-    let end = range.start + 1 + tag.iter().take_while(|byte| !b" \t\r\n/>".contains(byte)).count();
-    edits.replace(end - name.len()..end, "path".to_owned());
-    let closing = text[range.clone()].rfind("</").filter(|at| range.start + at >= end);
-    if let Some(at) = closing.filter(|_| !text[range.clone()].ends_with("/>")) {
-        let tag = range.start + at;
-        let name_at = tag + text[tag..range.end].rfind(name).unwrap_or(2);
-        edits.replace(name_at..name_at + name.len(), "path".to_owned());
+/// The names of elements that three corners can be drawn by.
+const SHAPES: [&str; 3] = ["path", "polygon", "polyline"];
+
+/// What triangles are called for usvg.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Names {
+    colortri: &'static str,
+    textri: &'static str,
+    /// Whether style sheets tell them from all else.
+    pub(super) are_apart: bool,
+}
+
+impl Names {
+    /// Those in the document `text`, whose style sheets select by them from now on.
+    pub(super) fn of(text: &str, edits: &mut Edits) -> Self {
+        let mut names = Self {
+            colortri: SHAPES[0],
+            textri: SHAPES[0],
+            are_apart: true,
+        };
+        if !text.contains("style") || !["colortri", "textri"].into_iter().any(|name| text.contains(name)) {
+            return names;
+        }
+        let selected = selectors::names(text);
+        let is_selected = |name: &str| selected.iter().any(|range| text[range.clone()] == *name);
+        let mut free = SHAPES.into_iter().filter(|shape| !is_selected(shape));
+        let first = free.next();
+        let is_one_kind = !text.contains("colortri") || !text.contains("textri");
+        let second = if !is_one_kind && (is_selected("colortri") || is_selected("textri")) {
+            free.next()
+        } else {
+            first
+        };
+        names.are_apart = second.is_some();
+        names.colortri = first.unwrap_or(SHAPES[0]);
+        names.textri = second.unwrap_or(names.colortri);
+        for range in selected {
+            if let Some(name) = names.get(&text[range.clone()]) {
+                edits.replace(range, name.to_owned());
+            }
+        }
+        names
     }
-    // A path that is always painted: its own look is ours, everything around it is the document's.
-    let place = match points.first_chunk::<6>() {
-        Some([a, b, c, d, e, f]) => format!("M{a} {b}L{c} {d}L{e} {f}Z"),
-        None => "M0 0L1 0L0 1Z".to_owned(),
-    };
-    for own in node.attributes().filter(|attribute| attribute.name() == "d") {
-        edits.replace(own.range_qname(), "data-d".to_owned());
+
+    /// The name for an element of this one, if it is a triangle.
+    fn get(self, name: &str) -> Option<&'static str> {
+        match name {
+            "colortri" => Some(self.colortri),
+            "textri" => Some(self.textri),
+            _ => None,
+        }
     }
-    edits.insert(end, format!(" d=\"{place}\""));
-    let look = format!(
-        "fill:#{number:06x}!important;fill-opacity:{MARK}!important;stroke:none!important;marker:none!important;"
-    );
-    match node.attributes().find(|attribute| attribute.name() == "style") {
-        Some(style) => edits.insert(style.range_value().start, look),
-        None => edits.insert(end, format!(" style=\"{look}\"")),
+
+    /// Makes such an element of a triangle in `text`, by its number and the numbers of its corners. There are fewer triangles than
+    /// colours.
+    pub(super) fn disguise(self, text: &str, node: Node<'_, '_>, triangle: (usize, &[f32]), edits: &mut Edits) {
+        let (number, points) = triangle;
+        let name = node.tag_name().name();
+        let other = self.get(name).unwrap_or(SHAPES[0]);
+        let range = node.range();
+        let tag = &text.as_bytes()[range.start + 1..];
+        let end = range.start + 1 + tag.iter().take_while(|byte| !b" \t\r\n/>".contains(byte)).count();
+        edits.replace(end - name.len()..end, other.to_owned());
+        let closing = text[range.clone()].rfind("</").filter(|at| range.start + at >= end);
+        if let Some(at) = closing.filter(|_| !text[range.clone()].ends_with("/>")) {
+            let tag = range.start + at;
+            let name_at = tag + text[tag..range.end].rfind(name).unwrap_or(2);
+            edits.replace(name_at..name_at + name.len(), other.to_owned());
+        }
+        // It is always painted: its own look is ours, everything around it is the document's.
+        let [a, b, c, d, e, f] = points.first_chunk::<6>().unwrap_or(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+        let (attribute, place) = match other {
+            "path" => ("d", format!("M{a} {b}L{c} {d}L{e} {f}Z")),
+            _ => ("points", format!("{a} {b} {c} {d} {e} {f}")),
+        };
+        for own in node.attributes().filter(|own| own.name() == attribute) {
+            edits.replace(own.range(), String::new());
+        }
+        edits.insert(end, format!(" {attribute}=\"{place}\""));
+        let look = format!(
+            "fill:#{number:06x}!important;fill-opacity:{MARK}!important;stroke:none!important;marker:none!important;"
+        );
+        match node.attributes().find(|attribute| attribute.name() == "style") {
+            Some(style) => edits.insert(style.range_value().start, look),
+            None => edits.insert(end, format!(" style=\"{look}\"")),
+        }
     }
 }
 

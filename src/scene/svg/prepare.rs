@@ -92,6 +92,7 @@ struct Preparation<'a, 'doc, L> {
     /// How many elements usvg will have to read, at least.
     read: usize,
     marks: Marks<'a>,
+    names: own_triangles::Names,
     listener: &'a mut L,
 }
 
@@ -104,6 +105,12 @@ pub(super) fn prepare<'doc, L: Listener>(
     styles::bounded(root, text, listener)?;
     let mut edits = Edits::default();
     let marks = Marks::of(text, &mut edits);
+    let names = own_triangles::Names::of(text, &mut edits);
+    if !names.are_apart {
+        let message =
+            "styles of path, polygon or polyline hold for colortri and textri, too: select the others by a class";
+        listener.warn(root, message.to_owned());
+    }
     let mut preparation = Preparation {
         text,
         edits,
@@ -113,6 +120,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         cascade: Cascade::below(root),
         read: 0,
         marks,
+        names,
         listener,
     };
     if let Some(message) = mended::style_elsewhere(root) {
@@ -409,7 +417,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let points = numbers::all("points", node.attribute("points").unwrap_or(""))
             .map_err(|problem| self.listener.fault(problem, node, "points"))?;
         let number = self.elements.add_triangle(node);
-        own_triangles::disguise(self.text, node, (number, &points), &mut self.edits);
+        self.names.disguise(self.text, node, (number, &points), &mut self.edits);
         Ok(())
     }
 

@@ -143,3 +143,47 @@ fn own_triangles_are_drawn_in_images() {
     );
     assert!(scene.textures.is_empty(), "nothing was asked for");
 }
+
+#[test]
+fn style_sheets_select_triangles_by_their_own_names() {
+    let textri = "<texture texid='t' filename='no.png'/><textri texid='t' points=' 0 0 9 0 0 9 ' uvs='0 0 1 0 0 1'/>";
+    let opacities = |sheet: &str| {
+        let body = format!("<style>{sheet}</style><g>{TRIANGLE}</g>{textri}");
+        let scene = drawing(&body);
+        let opacity = |kind: &PrimitiveKind| match kind {
+            PrimitiveKind::Triangle { paint, .. } => match paint {
+                Paint::Vertex(colors) => Some(("colortri", colors[0].a)),
+                Paint::Texture { opacity, .. } => Some(("textri", *opacity)),
+                Paint::Solid(_) => None,
+            },
+            _ => None,
+        };
+        let told = lines(&scene).into_iter().filter(|line| !line.contains("no.png"));
+        let found: Vec<_> = kinds(&scene).iter().filter_map(opacity).collect();
+        (found, told.collect::<Vec<_>>())
+    };
+    for (sheet, colortri, textri) in [
+        ("path, polygon{opacity:.5}", Some(1.0), 1.0),
+        ("colortri{opacity:.5}", Some(0.5), 1.0),
+        ("g > colortri, .textri{display:none}", None, 1.0),
+        ("g + textri{opacity:.5}", Some(1.0), 1.0),
+        ("texture + textri{opacity:.25} path{opacity:.5}", Some(1.0), 0.25),
+        (
+            "#a{opacity:.75} colortri{opacity:.5} textri[texid='t']{opacity:.5}",
+            Some(0.75),
+            0.5,
+        ),
+        ("g *{opacity:.5} textri{opacity:1 !important}", Some(0.5), 1.0),
+    ] {
+        let (found, told) = opacities(sheet);
+        let mut expected: Vec<_> = colortri.map(|opacity| ("colortri", opacity)).into_iter().collect();
+        expected.push(("textri", textri));
+        assert_eq!(found, expected, "{sheet}");
+        assert!(told.is_empty(), "{sheet}: {told:?}");
+    }
+    let (_, told) = opacities("path, polygon, polyline{opacity:.5}");
+    assert!(
+        matches!(told.as_slice(), [line] if line.contains("hold for colortri and textri, too")),
+        "{told:?}"
+    );
+}

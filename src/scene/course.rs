@@ -48,6 +48,13 @@ pub(super) fn is_read_otherwise(node: Node<'_, '_>) -> bool {
         || is_round(node)
 }
 
+/// Whether this is a `defs` with nothing to draw: textures are read wherever they stand.
+fn holds_textures_alone(node: Node<'_, '_>) -> bool {
+    let mut inside = node.descendants().skip(1).filter(Node::is_element);
+    node.tag_name().name() == "defs"
+        && inside.all(|node| matches!(node.tag_name().name(), "texture" | "g") || attributes::is_silent(node))
+}
+
 /// Whether SVG would show another part of the drawing than a canvas of this size does.
 fn is_another_view(view_box: &str, canvas: DVec2) -> bool {
     let numbers = numbers::all("viewBox", view_box).unwrap_or_default();
@@ -110,6 +117,9 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
                 continue;
             }
             let name = node.tag_name().name();
+            if holds_textures_alone(node) {
+                continue;
+            }
             if !ELEMENTS.contains(&name) {
                 self.builder.skip(SkippedKind::Element, name, node);
                 continue;

@@ -351,6 +351,27 @@ fn course_unknown_elements_are_skipped_with_what_they_hold() {
 }
 
 #[test]
+fn course_textures_may_be_defined_where_nothing_is_drawn() {
+    let textri = "<textri texid='t' points='0 0 1 0 0 1' uvs='0 0 1 0 0 2'/>";
+    for (definitions, told) in [
+        (
+            "<defs><texture texid='t' filename='no.png'/><g><title>t</title></g></defs>",
+            false,
+        ),
+        ("<defs/>", false),
+        (
+            "<defs><texture texid='t' filename='no.png'/><circle id='c' r='1'/></defs>",
+            true,
+        ),
+    ] {
+        let scene = course(&format!("{definitions}{textri}"));
+        let skipped: Vec<_> = scene.report.skipped.iter().map(|skipped| &*skipped.name).collect();
+        assert_eq!(skipped, vec!["defs"; usize::from(told)], "{definitions}");
+        assert_eq!(scene.primitives.len(), 1, "{definitions}");
+    }
+}
+
+#[test]
 fn course_every_shape_knows_its_place() {
     let scene = course("\n  <line id='a' stroke='#000' x2='1'/>\n\t<g>\u{e9}<polygon points='0,0 1,0 1,1'/></g>");
     let places: Vec<String> = scene

@@ -11,7 +11,7 @@ use super::build::{Area, Builder, unit_square};
 use super::error::Fault;
 use super::report::quote;
 use super::triangles::{self, Element, TextureFiles};
-use super::{Paint, PrimitiveKind, SkippedKind, attributes, course_values, numbers};
+use super::{Paint, PrimitiveKind, Skipped, SkippedKind, attributes, course_values, numbers, svg};
 use crate::color::Rgba;
 use crate::geometry::FillRule;
 
@@ -64,6 +64,18 @@ fn is_another_view(view_box: &str, canvas: DVec2) -> bool {
     let has_area = *width > 0.0 && *height > 0.0;
     let [corner, size] = [[*x, *y], [*width, *height]].map(|pair| DVec2::from(pair.map(f64::from)));
     has_area && (corner != DVec2::ZERO || size != canvas)
+}
+
+/// Tells once of the dialect that draws what was left out here, if it does.
+pub(super) fn tell_of_svg(builder: &mut Builder<'_>, root: Node<'_, '_>) {
+    let is_drawn = |skipped: &Skipped| match skipped.kind {
+        SkippedKind::Element => svg::is_understood(&skipped.name),
+        SkippedKind::Attribute => &*skipped.name != triangles::ALPHA,
+    };
+    if builder.report.skipped.iter().any(is_drawn) {
+        let message = "the dialect svg draws what is left out here (--dialect svg)";
+        builder.warn(root, message.to_owned());
+    }
 }
 
 /// Whether a rect asks for round corners.

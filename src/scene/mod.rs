@@ -175,7 +175,14 @@ fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources, progre
     };
     let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha), progress);
     let canvas = match dialect {
-        Dialect::Course => CourseReader::read(&mut builder, root)?,
+        Dialect::Course => {
+            let canvas = CourseReader::read(&mut builder, root)?;
+            // Those who chose it know the other, and two readings are told of elsewhere.
+            if options.dialect != DialectChoice::Course && other.is_none() {
+                course::tell_of_svg(&mut builder, root);
+            }
+            canvas
+        }
         Dialect::Svg => svg::read(&mut builder, root, source.text())?,
     };
     if canvas.min_element() <= 0.0 {

@@ -10,6 +10,9 @@ use super::error::Fault;
 use super::{Paint, ShapeId, SkippedKind, TextureId, numbers};
 use crate::color::Rgba;
 
+/// What no dialect draws of a triangle.
+pub(super) const ALPHA: &str = "alpha in colors";
+
 /// An element on its way to primitives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element<'doc> {
@@ -139,7 +142,7 @@ fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option
     let numbers = first::<11>(builder, node, "colors", 12)?;
     let last = self::numbers(builder, node, "colors")?.get(11).copied();
     if numbers.is_some_and(|n| n[3] < 1.0 || n[7] < 1.0) || last.is_some_and(|alpha| alpha < 1.0) {
-        builder.skip(SkippedKind::Attribute, "alpha in colors", node);
+        builder.skip(SkippedKind::Attribute, ALPHA, node);
     }
     let unit = |channel: f32| channel.clamp(0.0, 1.0);
     Ok(numbers.map(|n| [0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2])))))

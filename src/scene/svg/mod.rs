@@ -51,6 +51,8 @@ use super::error::Fault;
 use super::{Problem, numbers};
 use crate::memory::OutOfMemory;
 
+pub(super) use prepare::is_understood;
+
 pub use fonts::{Fonts, more_fonts, set_fonts};
 
 /// Stack for documents that are as deep as they may be: usvg and what follows it recurse. Only what is used is taken.

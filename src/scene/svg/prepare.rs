@@ -438,6 +438,11 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     }
 }
 
+/// Whether usvg makes something of elements of this name.
+pub(crate) fn is_understood(name: &str) -> bool {
+    UNDERSTOOD.contains(&name)
+}
+
 /// Whether no coordinate up to `reach` is moved beyond the range of 32-bit floats.
 fn is_within_floats(to_root: DAffine2, reach: f64) -> bool {
     let [x, y] = [to_root.matrix2.x_axis.abs(), to_root.matrix2.y_axis.abs()];

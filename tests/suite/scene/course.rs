@@ -351,6 +351,25 @@ fn course_unknown_elements_are_skipped_with_what_they_hold() {
 }
 
 #[test]
+fn auto_names_the_dialect_that_draws_what_is_left_out() {
+    let cure = "1:1: the dialect svg draws what is left out here (--dialect svg)";
+    let triangle = |look: &str| format!("<colortri points='0 0 1 0 0 1' colors='1 0 0 .5 0 1 0 1 0 0 1 1' {look}/>");
+    for (body, is_told) in [
+        (triangle("") + "<circle r='1'/><path d='M0 0'/>", true),
+        (triangle("opacity='.5'"), true),
+        (triangle("") + "<script/>", false),
+        (triangle(""), false),
+    ] {
+        let document = svg("width='10' height='10'", &body);
+        let told = lines(&read(&document, DialectChoice::Auto));
+        let cures = told.iter().filter(|line| *line == cure).count();
+        assert_eq!(cures, usize::from(is_told), "{body}: {told:?}");
+        let told = lines(&read(&document, DialectChoice::Course));
+        assert!(told.iter().all(|line| line != cure), "it was chosen: {told:?}");
+    }
+}
+
+#[test]
 fn course_textures_may_be_defined_where_nothing_is_drawn() {
     let textri = "<textri texid='t' points='0 0 1 0 0 1' uvs='0 0 1 0 0 2'/>";
     for (definitions, told) in [

@@ -48,7 +48,7 @@ impl<'doc> TextureFiles<'doc> {
 
 /// A triangle with a colour at each corner.
 pub(super) fn colortri(builder: &mut Builder<'_>, element: Element<'_>, opacity: f32) -> Result<(), Fault> {
-    let Some((points, colors)) = colored(builder, element)? else {
+    let Some((points, colors)) = colored(builder, element) else {
         return Ok(());
     };
     let paint = Paint::Vertex(colors.map(|color| color.faded(opacity)));
@@ -56,10 +56,10 @@ pub(super) fn colortri(builder: &mut Builder<'_>, element: Element<'_>, opacity:
 }
 
 /// Its corners and their colours; nothing where it is not drawn.
-pub(super) fn colored(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<Corners<Rgba>>, Fault> {
-    let colors = corner_colors(builder, element.node)?;
-    let points = corners(builder, element)?;
-    Ok(points.zip(colors))
+pub(super) fn colored(builder: &mut Builder<'_>, element: Element<'_>) -> Option<Corners<Rgba>> {
+    // Both are looked at, so that all that is wrong is told.
+    let colors = corner_colors(builder, element.node);
+    corners(builder, element).zip(colors)
 }
 
 /// A triangle with a texture coordinate at each corner.
@@ -69,7 +69,7 @@ pub(super) fn textri<'doc>(
     files: &TextureFiles<'doc>,
     opacity: f32,
 ) -> Result<(), Fault> {
-    let Some((points, uv)) = mapped(builder, element)? else {
+    let Some((points, uv)) = mapped(builder, element) else {
         return Ok(());
     };
     let Some(texture) = texture(builder, element.node, files.of(element.node)) else {
@@ -79,10 +79,9 @@ pub(super) fn textri<'doc>(
 }
 
 /// Its corners and where they lie in the texture; nothing where it is not drawn.
-pub(super) fn mapped(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<Corners<Vec2>>, Fault> {
-    let uv = corner_uvs(builder, element.node)?;
-    let points = corners(builder, element)?;
-    Ok(points.zip(uv))
+pub(super) fn mapped(builder: &mut Builder<'_>, element: Element<'_>) -> Option<Corners<Vec2>> {
+    let uv = corner_uvs(builder, element.node);
+    corners(builder, element).zip(uv)
 }
 
 /// The texture at `address`, or a warning that there are too many.
@@ -106,13 +105,15 @@ pub(super) fn numbers(builder: &Builder<'_>, node: Node<'_, '_>, name: &str) -> 
 }
 
 /// The first `N` numbers of an attribute, or a warning that there are fewer; another where there are more than `most`.
-fn first<const N: usize>(
-    builder: &mut Builder<'_>,
-    node: Node<'_, '_>,
-    name: &str,
-    most: usize,
-) -> Result<Option<[f32; N]>, Fault> {
-    let numbers = numbers(builder, node, name)?;
+fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, name: &str, most: usize) -> Option<[f32; N]> {
+    let numbers = match numbers::all(name, node.attribute(name).unwrap_or("")) {
+        Ok(numbers) => numbers,
+        Err(problem) => {
+            let place = builder.locate_attribute(node, name);
+            builder.report.warn(place, format!("not drawn: {problem}"));
+            return None;
+        }
+    };
     let first = numbers.first_chunk::<N>().copied();
     let count = numbers.len();
     if first.is_none() {
@@ -123,33 +124,34 @@ fn first<const N: usize>(
             format!("{name} holds {count} numbers; those after the first {most} have no effect"),
         );
     }
-    Ok(first)
+    first
 }
 
 /// Three `x y` in `points`, in user space.
-fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DVec2; 3]>, Fault> {
+fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Option<[DVec2; 3]> {
     let numbers = first::<6>(builder, element.node, "points", 6)?;
     let corner = |n: [f32; 6], i: usize| {
         element
             .to_user
             .transform_point2(DVec2::new(n[i].into(), n[i + 1].into()))
     };
-    Ok(numbers.map(|n| [0, 2, 4].map(|i| corner(n, i))))
+    Some([0, 2, 4].map(|i| corner(numbers, i)))
 }
 
 /// Three `r g b a` in `colors`; the opacity means nothing, and the last one may be missing.
-fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Rgba; 3]>, Fault> {
-    let numbers = first::<11>(builder, node, "colors", 12)?;
-    let last = self::numbers(builder, node, "colors")?.get(11).copied();
-    if numbers.is_some_and(|n| n[3] < 1.0 || n[7] < 1.0) || last.is_some_and(|alpha| alpha < 1.0) {
+fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Option<[Rgba; 3]> {
+    let n = first::<11>(builder, node, "colors", 12)?;
+    let all = numbers::all("colors", node.attribute("colors").unwrap_or("")).unwrap_or_default();
+    let last = all.get(11).copied().unwrap_or(1.0);
+    if [n[3], n[7], last].into_iter().any(|alpha| alpha < 1.0) {
         builder.skip(SkippedKind::Attribute, ALPHA, node);
     }
     let unit = |channel: f32| channel.clamp(0.0, 1.0);
-    Ok(numbers.map(|n| [0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2])))))
+    Some([0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2]))))
 }
 
 /// Three `u v` in `uvs`.
-fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Vec2; 3]>, Fault> {
-    let numbers = first::<6>(builder, node, "uvs", 6)?;
-    Ok(numbers.map(|n| [0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1]))))
+fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Option<[Vec2; 3]> {
+    let n = first::<6>(builder, node, "uvs", 6)?;
+    Some([0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1])))
 }

@@ -13,7 +13,6 @@ use usvg::Path;
 use crate::scene::build::Builder;
 use crate::scene::document::{LineIndex, Source};
 use crate::scene::edits::Edits;
-use crate::scene::error::Fault;
 use crate::scene::selectors;
 use crate::scene::textures::{Alpha, TextureTable, is_data};
 use crate::scene::triangles::{self, Element, TextureFiles};
@@ -136,9 +135,9 @@ pub(super) fn drawn<'doc>(
     source: &'doc Source<'doc>,
     nodes: &[Node<'doc, 'doc>],
     load: impl Fn(&str) -> Option<TextureId>,
-) -> Result<(Vec<Option<Drawn>>, Report), Fault> {
+) -> (Vec<Option<Drawn>>, Report) {
     let Some(first) = nodes.first() else {
-        return Ok((Vec::new(), Report::default()));
+        return (Vec::new(), Report::default());
     };
     let files = TextureFiles::below(first.document().root_element());
     let lines = LineIndex::new("");
@@ -151,23 +150,25 @@ pub(super) fn drawn<'doc>(
         let (shape, to_user) = (ShapeId(0), DAffine2::IDENTITY);
         let element = Element { node, shape, to_user };
         if node.tag_name().name() == "colortri" {
-            let colored = triangles::colored(&mut builder, element)?;
+            let colored = triangles::colored(&mut builder, element);
             found.push(colored.map(|(points, colors)| (points, Paint::Vertex(colors))));
             continue;
         }
-        let address = files.of(node);
-        let mapped = triangles::mapped(&mut builder, element)?.filter(|_| {
-            let is_here = is_data(address);
-            if !is_here {
-                let message = "a textri is not drawn: documents in images read no other files".to_owned();
-                builder.warn(node, message);
-            }
-            is_here
-        });
+        let mapped = triangles::mapped(&mut builder, element);
         found.push(mapped.and_then(|(points, uv)| {
-            let (texture, opacity) = (load(address)?, 1.0);
+            let address = files.of(node);
+            let texture = is_data(address).then(|| load(address)).flatten();
+            if texture.is_none() {
+                let why = if is_data(address) {
+                    "the scene has too many textures"
+                } else {
+                    "documents in images read no other files"
+                };
+                builder.warn(node, format!("a textri is not drawn: {why}"));
+            }
+            let (texture, opacity) = (texture?, 1.0);
             Some((points, Paint::Texture { texture, uv, opacity }))
         }));
     }
-    Ok((found, builder.report))
+    (found, builder.report)
 }

@@ -251,7 +251,7 @@ fn nested(
     let tree = tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())?;
     let (triangles, report) = own_triangles::drawn(&source, prepared.elements.triangles(), |address| {
         lock(loading).builder.textures.request(address.to_owned(), location)
-    })?;
+    });
     let heard = &mut lock(loading).builder.report;
     for skipped in report.skipped {
         heard.skip(skipped.kind, &skipped.name, location);

@@ -235,7 +235,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         mended::mend_filter(node, &self.elements, &mut self.edits);
         match name {
             "image" => self.image(node, heard),
-            "colortri" | "textri" => self.triangle(node)?,
+            "colortri" | "textri" => self.triangle(node),
             "use" if heard => self.used(node),
             "textPath" => {
                 let id = self.elements.outline(node.id().get_usize());
@@ -412,13 +412,11 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.images.push(node);
     }
 
-    /// The course's triangles become paths, which usvg brings to their places.
-    fn triangle(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
-        let points = numbers::all("points", node.attribute("points").unwrap_or(""))
-            .map_err(|problem| self.listener.fault(problem, node, "points"))?;
+    /// The course's triangles become paths, which usvg brings to their places. What is wrong with one is told where it is painted.
+    fn triangle(&mut self, node: Node<'doc, 'doc>) {
+        let points = numbers::all("points", node.attribute("points").unwrap_or("")).unwrap_or_default();
         let number = self.elements.add_triangle(node);
         self.names.disguise(self.text, node, (number, &points), &mut self.edits);
-        Ok(())
     }
 
     /// Tells of a `use` of what is not there.

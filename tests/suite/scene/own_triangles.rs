@@ -187,3 +187,31 @@ fn style_sheets_select_triangles_by_their_own_names() {
         "{told:?}"
     );
 }
+
+#[test]
+fn a_number_without_end_takes_its_triangle_alone() {
+    let broken = "\n<colortri points='0 0 0 0 0 nan' colors='0 0 0 1 0 0 0 1 0 0 0 1'/>\
+                  \n<colortri points='0 0 9 0 0 9' colors='0 0 0 1 0 -inf 0 1 0 0 0 1'/>\
+                  \n<textri points='0 0 9 0 0 9' uvs='0 0 1e39 0 0 1'/>";
+    let expected = [
+        "2:11: not drawn: points=\"0 0 0 0 0 nan\" holds a number that is not finite; use numbers up to 3.4e38",
+        "3:32: not drawn: colors=\"0 0 0 1 0 -inf 0 1 0 0 0 1\" holds a number that is not finite; use numbers up to 3.4e38",
+        "4:30: not drawn: uvs=\"0 0 1e39 0 0 1\" holds a number that is too large; use numbers from -3.4e38 to 3.4e38",
+    ];
+    for dialect in [DialectChoice::Course, DialectChoice::Svg] {
+        let scene = read(
+            &svg("width='100' height='100'", &format!("{broken}{TRIANGLE}")),
+            dialect,
+        );
+        assert_eq!(lines(&scene), expected, "{dialect:?}");
+        assert_eq!(
+            red_corners(&scene, 1.0),
+            [DVec2::ZERO],
+            "{dialect:?}: the other is drawn"
+        );
+    }
+    let image = address(&svg("width='9' height='9'", &format!("{broken}{TRIANGLE}")));
+    let scene = drawing(&format!("<image width='9' height='9' href='{image}'/>"));
+    assert_eq!(lines(&scene).len(), expected.len(), "{:?}", lines(&scene));
+    assert_eq!(red_corners(&scene, 1.0), [DVec2::ZERO], "in an image, too");
+}

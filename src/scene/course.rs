@@ -299,13 +299,10 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let Some(text) = node.attribute("transform") else {
             return Ok(DAffine2::IDENTITY);
         };
-        let (transform, unknown) = course_values::transform(text)
+        let (transform, trouble) = course_values::transform(text)
             .map_err(|problem| problem.at(self.builder.locate_attribute(node, "transform")))?;
-        if let Some(unknown) = unknown {
-            self.builder.warn(
-                node,
-                format!("the transform \"{}\" is unknown and has no effect", quote(unknown)),
-            );
+        if let Some(trouble) = trouble {
+            self.builder.warn(node, trouble);
         }
         Ok(transform)
     }

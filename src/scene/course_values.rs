@@ -2,6 +2,7 @@
 
 use glam::{DAffine2, DMat2, DVec2};
 
+use super::report::quote;
 use super::{Problem, numbers};
 use crate::color::Rgba;
 
@@ -40,24 +41,53 @@ impl CourseColor {
     }
 }
 
-/// A list of transforms, the first outermost, and the first function that is none.
+/// A list of transforms, the first outermost, and what is to be said of the first one that is not as it should be.
 ///
 /// Arguments are separated by anything and are 32-bit floats; a missing second one of `scale` is 1.
-pub(super) fn transform(text: &str) -> Result<(DAffine2, Option<&str>), Problem> {
+pub(super) fn transform(text: &str) -> Result<(DAffine2, Option<String>), Problem> {
     let mut product = DAffine2::IDENTITY;
-    let mut unknown = None;
+    let mut trouble = None;
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('(') {
         let name = before.trim_matches(|c: char| c == ',' || c.is_whitespace());
-        let (arguments, after) = after.split_once(')').unwrap_or((after, ""));
+        let closed = after.split_once(')');
+        let (arguments, after) = closed.unwrap_or((after, ""));
         let arguments = numbers::all("transform", arguments)?;
-        match function(name, &arguments) {
-            Some(own) => product *= own,
-            None => unknown = unknown.or(Some(name)),
+        if let Some(own) = function(name, &arguments) {
+            product *= own;
+            let is_open = closed.is_none();
+            trouble = trouble.or_else(|| miswritten(name, arguments.len(), is_open));
+        } else {
+            trouble = trouble.or_else(|| {
+                Some(format!(
+                    "the transform \"{}\" is unknown and has no effect",
+                    quote(name)
+                ))
+            });
         }
         rest = after;
     }
-    Ok((product, unknown))
+    if trouble.is_none() && rest.contains(char::is_alphanumeric) {
+        let rest = quote(rest.trim());
+        trouble = Some(format!("\"{rest}\" in transform has no effect; write NAME(NUMBERS)"));
+    }
+    Ok((product, trouble))
+}
+
+/// What is to be said of a function that is read although it is not written as it should be.
+fn miswritten(name: &str, count: usize, is_open: bool) -> Option<String> {
+    let (counts, wanted): (&[usize], &str) = match name {
+        "matrix" => (&[6], "6"),
+        "translate" | "scale" => (&[1, 2], "1 or 2"),
+        "rotate" => (&[1, 3], "1 or 3"),
+        _ => (&[1], "1"),
+    };
+    if !counts.contains(&count) {
+        return Some(format!(
+            "the transform \"{name}\" holds {count} numbers, not {wanted}; it is read as far as it goes"
+        ));
+    }
+    is_open.then(|| format!("the transform \"{name}\" is read to the end of the attribute; close its parenthesis"))
 }
 
 fn function(name: &str, arguments: &[f32]) -> Option<DAffine2> {
@@ -140,10 +170,26 @@ mod tests {
     }
 
     #[test]
+    fn transform_tells_what_is_miswritten() {
+        for (text, told) in [
+            ("translate(10", "read to the end of the attribute"),
+            ("matrix(1 0 0 1 5)", "holds 5 numbers, not 6"),
+            ("scale(2) rotate(1 2)", "holds 2 numbers, not 1 or 3"),
+            ("translate()", "holds 0 numbers, not 1 or 2"),
+            ("skewX(1 2", "holds 2 numbers, not 1"),
+            ("scale(2) rotate 45", "\"rotate 45\" in transform has no effect"),
+        ] {
+            let line = transform(text).expect("finite").1.unwrap_or_default();
+            assert!(line.contains(told), "{text}: {line}");
+        }
+        assert_eq!(transform(" , scale(2) ;").expect("finite").1, None, "nothing is amiss");
+    }
+
+    #[test]
     fn transform_survives_nonsense() {
         assert_eq!(
-            transform("spin(3) scale(2 2)").expect("finite").1,
-            Some("spin"),
+            transform("spin(3) scale(2 2)").expect("finite").1.as_deref(),
+            Some("the transform \"spin\" is unknown and has no effect"),
             "named"
         );
         assert!(transform("scale(").is_ok() && transform("((()").is_ok(), "unfinished");

@@ -351,6 +351,16 @@ fn course_unknown_elements_are_skipped_with_what_they_hold() {
 }
 
 #[test]
+fn course_tells_of_transforms_that_are_miswritten() {
+    let body = "<g transform='translate(10'/>\n<g transform='matrix(1 0 0 1 5)'/>\n<g transform='translate(1)'/>";
+    let told = lines(&course(body));
+    assert!(
+        matches!(told.as_slice(), [first, second] if first.ends_with("close its parenthesis") && second.contains("5 numbers, not 6")),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn auto_names_the_dialect_that_draws_what_is_left_out() {
     let cure = "1:1: the dialect svg draws what is left out here (--dialect svg)";
     let triangle = |look: &str| format!("<colortri points='0 0 1 0 0 1' colors='1 0 0 .5 0 1 0 1 0 0 1 1' {look}/>");

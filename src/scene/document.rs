@@ -291,6 +291,10 @@ impl<'doc> Source<'doc> {
         let is_first = before
             .trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}')
             .is_empty();
+        if let Some(at) = unended_value(before) {
+            let message = "no quotation mark stands at the end of this value".to_owned();
+            return Problem::Xml(message).at(lines.locate(at));
+        }
         let message = match error {
             Error::UnexpectedDeclaration(_) if is_first => {
                 "blanks stand before the XML declaration, where nothing may stand".to_owned()
@@ -300,6 +304,24 @@ impl<'doc> Source<'doc> {
         };
         Problem::Xml(shorten(&message, MAX_MESSAGE)).at(location)
     }
+}
+
+/// Where the attribute of the last tag in `text` begins whose value runs on into the next attribute: it ends with `name=`.
+fn unended_value(text: &str) -> Option<usize> {
+    let tag = text.rfind('<')?;
+    let mut at = tag;
+    while let Some(open) = text[at..].find(['"', '\'']).map(|open| at + open) {
+        let close = open + 1 + text[open + 1..].find(char::from(text.as_bytes()[open]))?;
+        let value = &text[open + 1..close];
+        let last = value.rsplit(|c: char| c.is_ascii_whitespace()).next().unwrap_or("");
+        let is_name = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "-_:".contains(c));
+        if last.len() < value.len() && last.strip_suffix('=').is_some_and(is_name) {
+            let name = text[tag..open].trim_end().strip_suffix('=')?.trim_end();
+            return Some(tag + name.rfind(|c: char| c.is_ascii_whitespace())? + 1);
+        }
+        at = close + 1;
+    }
+    None
 }
 
 /// What a quick look at the markup finds; never too little.
@@ -405,6 +427,25 @@ mod tests {
 
     fn place(line: u32, column: u32) -> SourceLocation {
         SourceLocation { line, column }
+    }
+
+    #[test]
+    fn values_that_run_on_are_found() {
+        for (text, expected) in [
+            ("<a><b c='1' d=\"1 2 e=\"3", Some("d=")),
+            ("<b c = '1 2\ne='3 f='4'", Some("c =")),
+            ("<b c='1 2' d='3=' e='f(x) = 1'", None),
+            ("<b c='1 d='2'/><b e='", None),
+            ("<b c='", None),
+            ("", None),
+        ] {
+            let found = unended_value(text).map(|at| &text[at..]);
+            assert_eq!(found.is_some(), expected.is_some(), "{text}");
+            assert!(
+                found.is_none_or(|found| found.starts_with(expected.unwrap_or(""))),
+                "{text}: {found:?}"
+            );
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
 use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
-use crate::support::documents::{area, kinds, lines, read, svg};
+use crate::support::documents::{area, kinds, lines, read, svg, try_read};
 
 fn course(body: &str) -> Scene {
     read(
@@ -348,6 +348,14 @@ fn course_unknown_elements_are_skipped_with_what_they_hold() {
         "2:32: <symbol> is not drawn",
     ];
     assert_eq!(lines(&scene), expected, "counted, at the first place");
+}
+
+#[test]
+fn a_missing_quotation_mark_is_told_where_its_value_begins() {
+    let body = "\n<colortri points='0 0 1 0 0 1 colors='1 0 0 1 0 1 0 1 0 0 1 1'/>";
+    let error = try_read(svg("width='9' height='9'", body).as_bytes(), DialectChoice::Auto).expect_err("broken");
+    let expected = "test.svg:2:11: no quotation mark stands at the end of this value; repair the XML here";
+    assert_eq!(error.to_string(), expected);
 }
 
 #[test]

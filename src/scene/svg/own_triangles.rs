@@ -6,6 +6,8 @@
 //! usvg drops the ids of what `use`, a marker or another document shows, and keeps paints. So the number lies in the colour, and an
 //! opacity that no document writes says that it is one.
 
+use std::collections::HashMap;
+
 use glam::{DAffine2, DVec2};
 use roxmltree::Node;
 use usvg::Path;
@@ -144,6 +146,7 @@ pub(super) fn drawn<'doc>(
     let progress = Progress::default();
     let textures = TextureTable::new(&NoResources, Alpha::Keep);
     let mut builder = Builder::new(source, &lines, textures, &progress);
+    let mut textures_by_name = HashMap::new();
     let mut found = Vec::with_capacity(nodes.len());
     for &node in nodes {
         // What is painted belongs to the image.
@@ -157,7 +160,10 @@ pub(super) fn drawn<'doc>(
         let mapped = triangles::mapped(&mut builder, element);
         found.push(mapped.and_then(|(points, uv)| {
             let address = files.of(node);
-            let texture = is_data(address).then(|| load(address)).flatten();
+            let name = node.attribute("texid").unwrap_or("");
+            // Addresses with their pixels are long, and many triangles share one.
+            let texture = textures_by_name.entry(name);
+            let texture = *texture.or_insert_with(|| is_data(address).then(|| load(address)).flatten());
             if texture.is_none() {
                 let why = if is_data(address) {
                     "the scene has too many textures"

@@ -2,7 +2,13 @@
 //!
 //! Points that lie `r` to a pixel cannot tell a wave of `f` cycles per pixel from one of `r - f`: whatever is finer than half of
 //! `r` comes back as a ghost that the scene does not have. So the scene is drawn twice, by one point in each of many small
-//! squares, and a wave counts as much as the weaker of both drawings has of it: in each of them a ghost lies elsewhere.
+//! squares, and a wave counts as much as both drawings have of it: in each of them a ghost lies elsewhere.
+//!
+//! That holds as long as nothing ties the two numbers of squares to each other or to what repeats in the region. A region of 500
+//! pixels with 250 bars has waves of 250, 750, 1250, ... periods. Of 4375 squares, which are 35 times 125, they all come back at
+//! multiples of 125 periods, and so they do of 2625, which are 21 times 125. Of numbers that share no factor with the region's
+//! pixels or each other (4199 and 2553), ghosts are strewn over all frequencies. Where by chance two still meet, they are of
+//! different waves, and so rarely in step.
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
@@ -18,32 +24,36 @@ use crate::render::{CancelToken, RenderSettings, Subject, draw_regions};
 /// How many times as many frequencies are kept along an axis as pixels can show: up to two and a half cycles per pixel.
 pub(super) const FINENESS: u32 = 5;
 /// Squares along a pixel's side in the two drawings, at least; some 100 in a pixel together. The first has no ghost of what is
-/// coarser than 5.8 cycles per pixel. They are far from the ratio of small numbers: only what is of single frequencies has its
-/// ghosts in one place in both.
+/// coarser than 5.8 cycles per pixel.
 const RATES: [f64; 2] = [8.3, 5.1];
 
-/// How many times the power in the second drawing that of a ghost in the first is at least.
-const GHOST: f32 = 4.0;
+/// Prime factors of numbers of squares: small, for a quick transform, and odd, since what people draw repeats in even numbers of
+/// pixels. With fewer of them, some sides are half as many squares again away from the next number that shares no factor.
+const FACTORS: [u32; 17] = [3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61];
+
+/// The part of a wave of the first drawing that the second has at least, unless it is a ghost.
+const OWN: f32 = 0.5;
 
 /// The scene's spectrum in a region of the picture. What is as thin as a pixel by definition, such as the course's lines, is as
 /// thin as a square there.
 pub(super) fn scene(subject: &Subject<'_>, region: Region) -> Option<Spectrum> {
     let size = [region.width, region.height];
-    let [waves, others] = RATES.map(|rate| {
-        let frame = drawn(subject, region, size.map(|side| squares(side, rate)))?;
+    let [across, down] = size.map(squares);
+    let [waves, others] = [0, 1].map(|drawing: usize| {
+        let frame = drawn(subject, region, [across[drawing], down[drawing]])?;
         Some(transform_low(&frame, size.map(|side| (side * FINENESS) as usize)))
     });
     let (mut waves, others) = (waves?, others?);
     let ghosts = strongest_ghost(&waves, &others, size);
     let both = waves.par_iter_mut().with_min_len(4096).zip(&others);
-    both.for_each(|(wave, other)| *wave = weaker(*wave, *other));
+    both.for_each(|(wave, other)| *wave *= shared(*wave, *other));
     Some(Spectrum::of_finer(waves, size, FINENESS).with_ghosts(ghosts))
 }
 
-/// The first wave, as strong as the second at most.
-fn weaker(wave: Complex<f32>, other: Complex<f32>) -> Complex<f32> {
-    let (own, other) = (wave.norm_sqr(), other.norm_sqr());
-    if other < own { wave * (other / own).sqrt() } else { wave }
+/// The part of the first wave that the second has in step with it, `0.0..=1.0`.
+fn shared(wave: Complex<f32>, other: Complex<f32>) -> f32 {
+    let in_step = wave.re * other.re + wave.im * other.im;
+    (in_step / wave.norm_sqr().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
 /// The amplitude of the strongest wave of which the second drawing has less than half: as strong may be what by chance both
@@ -56,7 +66,7 @@ fn strongest_ghost(waves: &[Complex<f32>], others: &[Complex<f32>], size: [u32; 
         let mut most = 0.0_f32;
         for (wave, other) in waves.iter().zip(others) {
             let power = wave.norm_sqr();
-            if power > most && power > GHOST * other.norm_sqr() {
+            if power > most && shared(*wave, *other) < OWN {
                 most = power;
             }
         }
@@ -65,25 +75,33 @@ fn strongest_ghost(waves: &[Complex<f32>], others: &[Complex<f32>], size: [u32; 
     ghosts.reduce(|| 0.0, f32::max).sqrt()
 }
 
-/// As many squares as a side of so many pixels is cut into at least; of small factors, for a quick transform, and of odd ones, since
-/// what people draw repeats in even numbers of pixels.
+/// As many squares as a side of so many pixels is cut into at least, in each of the drawings: without a factor in common with each
+/// other or the pixels.
+fn squares(side: u32) -> [u32; 2] {
+    let [first, second] = RATES;
+    let first = squares_without(side, first, 1);
+    [first, squares_without(side, second, first)]
+}
+
+/// So many for one drawing, without a factor in common with the side and another number.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "some thousands at most"
 )]
-fn squares(side: u32, rate: f64) -> u32 {
+fn squares_without(side: u32, rate: f64, other: u32) -> u32 {
     let least = (f64::from(side) * rate).ceil() as u32;
-    let is_smooth = |count: &u32| {
+    let is_free = |count: &u32| {
         let mut rest = *count;
-        for factor in [3, 5, 7] {
-            while rest > 1 && rest.is_multiple_of(factor) {
+        for factor in FACTORS {
+            let is_taken = side.is_multiple_of(factor) || other.is_multiple_of(factor);
+            while !is_taken && rest > 1 && rest.is_multiple_of(factor) {
                 rest /= factor;
             }
         }
         rest == 1
     };
-    (least..=least.saturating_mul(2)).find(is_smooth).unwrap_or(least)
+    (least..=least.saturating_mul(2)).find(is_free).unwrap_or(least)
 }
 
 /// The region in so many squares, each as the scene is in its middle.
@@ -115,16 +133,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn squares_are_enough_and_of_small_factors() {
-        for side in [1, 2, 63, 64, 200, 509, 512] {
-            let [first, second] = RATES.map(|rate| f64::from(squares(side, rate)) / f64::from(side));
-            assert!(first >= RATES[0] && second >= RATES[1], "{side}: {first} and {second}");
-            assert!(
-                side < 63 || first < 1.08 * RATES[0],
-                "{side}: no more than needed, {first}"
-            );
+    fn squares_are_enough_and_share_no_factor() {
+        fn common(a: u32, b: u32) -> u32 {
+            if b == 0 { a } else { common(b, a % b) }
         }
-        assert_eq!(squares(512, RATES[0]), 4375, "625 x 7");
+        for side in 1..=512 {
+            let [first, second] = squares(side);
+            assert_eq!(common(first, side), 1, "{first} squares of {side}");
+            assert_eq!(common(second, side), 1, "{second} squares of {side}");
+            assert_eq!(common(first, second), 1, "{first} and {second} of {side}");
+            for (count, rate) in [(first, RATES[0]), (second, RATES[1])] {
+                let found = f64::from(count) / f64::from(side);
+                assert!(found >= rate, "{side}: {found}");
+                assert!(side < 64 || found < 1.1 * rate, "{side}: no more than needed, {found}");
+            }
+        }
+        assert_eq!(squares(500), [4199, 2553], "13 x 17 x 19 and 3 x 23 x 37");
     }
 
     #[test]
@@ -138,15 +162,23 @@ mod tests {
         others[13] = wave(30.0);
         let found = strongest_ghost(&waves, &others, [2, 1]);
         assert!((found - 9.0).abs() < 1e-6, "{found}");
+        // One that the second has as much of, but elsewhere in its period: two ghosts that meet.
+        (waves[14], others[14]) = (wave(12.0), Complex::new(12.0, 0.0));
+        let found = strongest_ghost(&waves, &others, [2, 1]);
+        assert!((found - 12.0).abs() < 1e-6, "{found}");
     }
 
     #[test]
-    fn weaker_wave_keeps_the_first_phase() {
-        let [first, second] = [[3.0, 4.0], [0.0, -1.0]].map(|[re, im]| Complex::new(re, im));
-        let off = (weaker(first, second) - first / 5.0).norm();
-        assert!(off < 1e-6, "as strong as the second: {off}");
-        assert_eq!(weaker(second, first), second, "weaker already");
-        let none = Complex::new(0.0, 0.0);
-        assert_eq!(weaker(none, none), none, "nothing");
+    fn what_both_have_is_in_step() {
+        let part = |first: [f32; 2], second: [f32; 2]| {
+            let [first, second] = [first, second].map(|[re, im]| Complex::new(re, im));
+            shared(first, second)
+        };
+        let near = |found: f32, expected: f32| assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+        near(part([3.0, 4.0], [0.6, 0.8]), 0.2);
+        near(part([0.6, 0.8], [3.0, 4.0]), 1.0);
+        near(part([3.0, 4.0], [-4.0, 3.0]), 0.0);
+        near(part([3.0, 4.0], [-3.0, -4.0]), 0.0);
+        near(part([0.0, 0.0], [1.0, 0.0]), 0.0);
     }
 }

@@ -114,6 +114,52 @@ fn no_wave_is_named_that_comes_back_from_finer_ones() {
     );
 }
 
+/// Waves above -40 dB, at most six, that are listed of bars with so many pixels from one to the next, as periods per bar.
+fn waves_of_bars(side: u32, period: f64) -> Vec<f64> {
+    let bar = |index: u32| {
+        let left = 0.13 + f64::from(index) * period;
+        format!(r#"<rect x="{left}" y="-9" width="{}" height="40"/>"#, period / 2.0)
+    };
+    let bars: String = (0..side).map(bar).collect();
+    let text = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="{side}" height="4">{bars}</svg>"#);
+    let (scene, settings) = (read(&text), at_rate(1));
+    let view = View::Canvas.transform(scene.canvas, [side, 4]);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &settings,
+    };
+    let region = Region::of_size([side, 4]);
+    let found = SpectrumAnalysis::of_scene(&subject, [side, 4], region).expect("pixels");
+    let strong = found.peaks(6).into_iter().filter(|peak| peak.wave.decibels() > -40.0);
+    strong.map(|peak| peak.wave.frequency[0] * period).collect()
+}
+
+#[test]
+fn bars_have_odd_waves_only() {
+    // A wave between two frequencies that fit is listed at the nearer one.
+    for (side, period) in [
+        (64, 4.0),
+        (71, 2.5),
+        (100, 2.0),
+        (100, 2.5),
+        (134, 5.0),
+        (160, 3.2),
+        (300, 2.0),
+        (300, 3.0),
+        (500, 2.0),
+        (500, 5.0),
+    ] {
+        let found = waves_of_bars(side, period);
+        assert!(!found.is_empty(), "{side} pixels, bars of {period}");
+        for wave in found {
+            let odd = 2.0 * ((wave - 1.0) / 2.0).round() + 1.0;
+            let off = (wave - odd).abs() * f64::from(side) / period;
+            assert!(off <= 1.0, "{side} pixels, bars of {period}: {wave} periods");
+        }
+    }
+}
+
 #[test]
 fn samples_take_what_is_too_fine() {
     let scene = stripes(0.7);

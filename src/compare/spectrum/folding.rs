@@ -48,9 +48,12 @@ impl Band {
     }
 }
 
-/// How many whole cycles per pixel the pixels do not see; the rest lies in `-0.5..0.5`.
+/// How many whole cycles per pixel the pixels do not see; the rest lies in `-0.5..=0.5`, whose ends are one frequency: half a
+/// cycle per pixel is not too fine, whichever way it runs.
 fn turns(along: f64) -> f64 {
-    (along + 0.5).floor()
+    /// What sums and products of frequencies are rounded by at most.
+    const ROUNDING: f64 = 1e-9;
+    (along.abs() - 0.5 - ROUNDING).ceil().max(0.0).copysign(along)
 }
 
 /// Where a frequency is seen, in cycles per pixel.
@@ -70,7 +73,9 @@ mod tests {
             ([-0.7, 0.1], [0.3, 0.1], Some(Band::Across)),
             ([0.2, -1.2], [0.2, -0.2], Some(Band::Down)),
             ([1.4, 0.9], [0.4, -0.1], Some(Band::Both)),
-            ([0.5, -0.5], [-0.5, -0.5], Some(Band::Across)),
+            ([0.5, -0.5], [0.5, -0.5], None),
+            ([-0.5, 0.1 + 0.4], [-0.5, 0.5], None),
+            ([1.5, -1.5], [0.5, -0.5], Some(Band::Both)),
         ] {
             let found = folded(frequency);
             let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);

@@ -229,7 +229,7 @@ impl SpectrumAnalysis {
         let [across, down] = [across, down].map(|reach| i64::from(whole(reach.min(64.0))));
         let places = (-down..=down).flat_map(|y| (-across..=across).map(move |x| [middle[0] + x, middle[1] + y]));
         let known = places.filter(|[x, y]| self.own.orders(0).contains(x) && self.own.orders(1).contains(y));
-        let strongest = known.max_by(|a, b| self.power(*a).total_cmp(&self.power(*b)));
+        let strongest = known.max_by(|a, b| self.height(*a).total_cmp(&self.height(*b)));
         Some(self.reading(strongest.unwrap_or(middle)))
     }
 
@@ -276,16 +276,10 @@ impl SpectrumAnalysis {
         let size = scene.size().map(i64::from);
         let turns = TURNS.flat_map(|y| TURNS.map(move |x| [x, y]));
         let places = turns.filter_map(move |turns| {
-            let band = match turns {
-                [0, 0] => return None,
-                [_, 0] => Band::Across,
-                [0, _] => Band::Down,
-                _ => Band::Both,
-            };
-            Some(FinerPlace {
-                order: [0, 1].map(|axis| order[axis] + turns[axis] * size[axis]),
-                band,
-            })
+            let order = [0, 1].map(|axis| order[axis] + turns[axis] * size[axis]);
+            // None inside of the box: the place itself, and at the box's border what is the same.
+            let band = Band::of(scene.frequency(order))?;
+            Some(FinerPlace { order, band })
         });
         Some((scene, places))
     }
@@ -319,6 +313,11 @@ impl SpectrumAnalysis {
             .min(share(finer, finer + own))
             .min(share(4.0 * finer, all));
         powers.map(|power| share(power, finer) * all_bands)
+    }
+
+    /// By how much a place stands out from those beside it.
+    fn height(&self, order: [i64; 2]) -> f64 {
+        self.power(order) - self.own.power(order) + self.own.height(order)
     }
 
     /// The power that is shown at a place: of the scene inside of the box that which pixels of one point each would have.

@@ -161,6 +161,50 @@ fn bars_have_odd_waves_only() {
 }
 
 #[test]
+fn waves_at_the_limit_of_pixels_are_not_too_fine() {
+    // Every other pixel, by bars and by rows: half a cycle per pixel is what pixels can just show.
+    for (bar, frequency) in [(["1", "100"], [0.5, 0.0]), (["100", "1"], [0.0, 0.5])] {
+        let bars = (0..50).map(|index| {
+            let at = frequency.map(|along| 4.0 * along * f64::from(index));
+            format!(
+                r#"<rect x="{}" y="{}" width="{}" height="{}"/>"#,
+                at[0], at[1], bar[0], bar[1]
+            )
+        });
+        let bars: String = bars.collect();
+        let text = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">{bars}</svg>"#);
+        let (scene, settings, size) = (read(&text), at_rate(1), [100, 100]);
+        let view = View::Canvas.transform(scene.canvas, size);
+        let subject = Subject {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+        };
+        let frame = SpectrumAnalysis::of_frame(&subject, size, Region::of_size(size)).expect("pixels");
+        let found = frame.peaks(4);
+        assert_eq!(found.len(), 1, "one wave: {found:?}");
+        let (wave, lands) = (found[0].wave, found[0].lands);
+        assert_eq!(
+            (wave.frequency, lands),
+            (frequency, None),
+            "a frame holds no wave that is too fine"
+        );
+        assert!(wave.decibels().abs() < 0.01, "{found:?}");
+        assert_eq!(
+            frame.strongest_near(frequency, 0.03),
+            Some(found[0]),
+            "what is pointed at"
+        );
+        let (source, _) = found[0].source.expect("a scene beside it");
+        let of_source = source.frequency[0].abs().max(source.frequency[1].abs());
+        assert!(of_source > 1.0, "it is no alias of itself: {source:?}");
+        let scene = SpectrumAnalysis::of_scene(&subject, size, Region::of_size(size)).expect("pixels");
+        let found = scene.peaks(1)[0];
+        assert_eq!((found.wave.frequency, found.lands), (frequency, None), "{found:?}");
+    }
+}
+
+#[test]
 fn samples_take_what_is_too_fine() {
     let scene = stripes(0.7);
     let amplitude = |settings: &RenderSettings| {

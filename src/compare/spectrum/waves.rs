@@ -1,7 +1,8 @@
 //! A picture as a sum of waves: how strong each frequency is, and where its crests lie.
 //!
 //! A wave of a whole number of periods across the picture reads its own amplitude (and its neighbours a half of it, which is
-//! Hann's window); one between two such frequencies reads up to 1.4 dB less along each axis.
+//! Hann's window); one between two such frequencies reads up to 1.4 dB less along each axis. So does half a cycle per pixel where
+//! the number of pixels is odd; its mirror image then lies in the frequency beside it, and adds up to as much again.
 
 use std::f64::consts::TAU;
 
@@ -109,16 +110,14 @@ impl Spectrum {
         let waves = transform(&plane.values, counts[0]);
         #[expect(clippy::cast_possible_truncation, reason = "of sums")]
         let scale = (2.0 / gain.max(f64::MIN_POSITIVE)) as f32;
-        let mut spectrum = Self {
+        Self {
             size: plane.size,
             fineness: 1,
             shown: 1,
             ghosts: 0.0,
             origin: 0.5,
             waves: waves.into_iter().map(|wave| wave * scale).collect(),
-        };
-        spectrum.count_own_mirrors_once();
-        spectrum
+        }
     }
 
     /// That of so many pixels, of amplitudes and phases of `fineness` times as many frequencies along each axis.
@@ -144,17 +143,6 @@ impl Spectrum {
     /// Whether the wave with so many periods across the picture may be a ghost of one that is finer than all of these.
     pub(super) fn may_be_ghost(&self, order: [i64; 2]) -> bool {
         self.ghosts > 0.0 && self.power(order) <= self.ghosts * self.ghosts
-    }
-
-    fn count_own_mirrors_once(&mut self) {
-        // A wave that is its own mirror image is there once, and not as two halves.
-        let own_mirrors = [0, 1].map(|axis| [0, self.count(axis) / 2]);
-        for order in [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]: [usize; 2]| [own_mirrors[0][x], own_mirrors[1][y]]) {
-            let [index, mirror] = self.indices(order);
-            if let Some(wave) = self.waves.get_mut(index).filter(|_| index == mirror) {
-                *wave *= 0.5;
-            }
-        }
     }
 
     /// Columns and rows that were transformed, in pixels.
@@ -203,8 +191,16 @@ impl Spectrum {
         [1, -1].map(index)
     }
 
-    /// The square of the amplitude of the wave with so many periods across the picture.
+    /// The square of the amplitude of the wave with so many periods across the picture. One that is its own mirror image, such as
+    /// every other column, is there once, and not as two halves.
     pub(super) fn power(&self, order: [i64; 2]) -> f64 {
+        let [index, mirror] = self.indices(order);
+        let halves = if index == mirror { 2.0 } else { 1.0 };
+        self.height(order) / (halves * halves)
+    }
+
+    /// The same by which it stands out from the frequencies beside it, in which Hann's window leaves half of both halves.
+    pub(super) fn height(&self, order: [i64; 2]) -> f64 {
         let [index, _] = self.indices(order);
         self.waves.get(index).map_or(0.0, |wave| f64::from(wave.norm_sqr()))
     }
@@ -238,7 +234,7 @@ impl Spectrum {
         let least = (decibels(most.sqrt()) - WEAKER).max(WEAKEST);
         let mut found: Vec<(f64, [i64; 2])> = powers
             .filter(|(power, order)| {
-                decibels(power.sqrt()) >= least && !self.may_be_ghost(*order) && self.is_peak(*order, *power)
+                decibels(power.sqrt()) >= least && !self.may_be_ghost(*order) && self.is_peak(*order)
             })
             .collect();
         found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -254,10 +250,11 @@ impl Spectrum {
         peaks.into_iter().map(to_right).collect()
     }
 
-    /// Whether no wave beside it is stronger.
-    fn is_peak(&self, [x, y]: [i64; 2], power: f64) -> bool {
+    /// Whether no wave beside it stands out more.
+    fn is_peak(&self, [x, y]: [i64; 2]) -> bool {
+        let height = self.height([x, y]);
         let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [x + dx, y + dy]));
-        beside.map(|order| self.power(order)).all(|other| other <= power)
+        beside.map(|order| self.height(order)).all(|other| other <= height)
     }
 
     /// Whether both are one peak, or mirror images of one.
@@ -342,6 +339,19 @@ mod tests {
         assert_near(found.amplitude, 30.0, "as strong");
         let checker = strongest(grating([32, 32], [0.5, 0.5], 30.0, PI));
         assert_near(checker.amplitude, 30.0, "every other pixel: its own mirror image");
+    }
+
+    #[test]
+    fn waves_at_the_limit_of_pixels_are_found_there() {
+        // Leaks of both halves are as strong as the wave itself, and ties went to the frequency beside it.
+        for size in [[100, 100], [64, 100], [500, 20], [36, 64]] {
+            for frequency in [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5]] {
+                let found = strongest(grating(size, frequency, 127.5, PI * (frequency[0] + frequency[1])));
+                assert_near(found.frequency[0], frequency[0], "across");
+                assert_near(found.frequency[1], frequency[1], "down");
+                assert_near(found.decibels(), 0.0, "from black to white");
+            }
+        }
     }
 
     #[test]

@@ -4,20 +4,28 @@ use glam::DVec2;
 
 use super::RenderSettings;
 use crate::geometry::{Polygon, ViewTransform};
-use crate::raster::SampleRate;
 use crate::rules::Rules;
 
-/// For how many samples along a side of a pixel curves are fine enough: for the most there can be, where areas are covered.
+/// For how many samples along a side of a pixel curves are fine enough where areas are covered. An edge lies on one side of its
+/// curve, at most a tenth of the distance between them, and so takes two thirds of that from a pixel: over its diagonal
+/// `255 * sqrt(2) * 2/3 * 0.1 / 512`, less than a twentieth of a level.
+const FOR_AREAS: f64 = 512.0;
+
+/// For how many samples along a side of a pixel curves are fine enough.
 fn samples_along_side(settings: &RenderSettings) -> f64 {
-    let most = SampleRate::new(SampleRate::MAX).filter(|_| settings.covers_areas());
-    most.unwrap_or(settings.sample_rate).side().into()
+    if settings.covers_areas() {
+        FOR_AREAS
+    } else {
+        settings.sample_rate.side().into()
+    }
 }
 
 /// User space to screen space, by whose rules.
 pub(super) struct Screen<'a> {
     view: &'a ViewTransform,
     pub(super) rules: Rules,
-    /// Samples per user unit, in the direction in which there are most.
+    covers_areas: bool,
+    /// Samples per canvas unit, in the direction in which there are most.
     scale: f64,
     /// Pixels of the frame.
     size: [u32; 2],
@@ -30,6 +38,7 @@ impl<'a> Screen<'a> {
         Self {
             view,
             rules: settings.rules,
+            covers_areas: settings.covers_areas(),
             scale: pixels_per_unit(view) * samples_along_side(settings),
             size,
             margin: settings.margin(),
@@ -47,13 +56,14 @@ impl<'a> Screen<'a> {
     }
 
     /// The same with edges so much finer that the area in a pixel is known to three digits; those of many points stay the
-    /// picture's.
+    /// picture's, and so do those of a picture that covers areas, which are finer still.
     pub(super) fn with_true_edges<T>(&self, polygon: &Polygon, measure: impl FnOnce(&Polygon) -> T) -> T {
         /// Of a pixel's side.
         const TOLERANCE: f64 = 5e-4;
         /// They become several times as many, and are cut into triangles.
         const MOST_POINTS: usize = 2_000;
-        match polygon.curves().filter(|_| polygon.points().len() <= MOST_POINTS) {
+        let is_coarse = !self.covers_areas && polygon.points().len() <= MOST_POINTS;
+        match polygon.curves().filter(|_| is_coarse) {
             // Not remembered by the polygon: frames would have to find theirs again.
             Some(curves) => {
                 let tolerance = TOLERANCE / pixels_per_unit(self.view);

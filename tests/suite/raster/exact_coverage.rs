@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
+use rasterscope::glam::DVec2;
 use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::{Framebuffer, PixelCoverage, SamplePattern, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject};
@@ -155,6 +156,64 @@ fn a_pixel_is_mixed_by_what_is_covered_of_it() {
     }
     let hole = svg(r#"<path fill-rule="evenodd" d="M2 2h2v2h-2zM3.5 3h.25v1h-.25z"/>"#);
     assert_eq!(gray(&hole, &exact(), [3, 3]), 64, "a hole of a quarter");
+}
+
+/// The part of a pixel between the axis and the parabola `y = x (200 - x) / 200`, by the middles of many columns.
+fn under_parabola([x, y]: [u32; 2], scale: f64) -> f64 {
+    const COLUMNS: u32 = 2000;
+    let height = |column: u32| {
+        let x = (f64::from(x) + (f64::from(column) + 0.5) / f64::from(COLUMNS)) / scale;
+        (x * (200.0 - x) / 200.0 * scale - f64::from(y)).clamp(0.0, 1.0)
+    };
+    (0..COLUMNS).map(height).sum::<f64>() / f64::from(COLUMNS)
+}
+
+#[test]
+fn areas_under_curves_are_those_of_the_curves() {
+    let scene = document(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="50"><path d="M0 0Q100 100 200 0z"/></svg>"#,
+    );
+    for scale in [0.3, 1.0, 3.7, 16.0] {
+        // The frame shows the left corner: as the scene is in its own size, times the scale.
+        let size = [400, 300];
+        let view = View::At {
+            center: DVec2::new(200.0, 150.0) / scale,
+            scale,
+            rotation: 0.0,
+        };
+        let frame = drawn(&scene, &view.transform(scene.canvas, size), &exact(), size);
+        let (mut sum, mut count) = (0.0, 0);
+        for (i, pixel) in (0..).zip(frame.pixels()) {
+            let at = [i % size[0], i / size[0]];
+            let truth = under_parabola(at, scale);
+            if truth > 0.0 && truth < 1.0 && f64::from(at[0]) < 200.0 * scale {
+                let off = f64::from(pixel & 0xff) - 255.0 * (1.0 - truth);
+                assert!(off.abs() <= 0.56, "{at:?}, times {scale}: {off} levels");
+                (sum, count) = (sum + off, count + 1);
+            }
+        }
+        let mean = sum / f64::from(count);
+        assert!(
+            count > 50 && mean.abs() < 0.12,
+            "times {scale}: {mean} levels of {count} pixels"
+        );
+    }
+}
+
+#[test]
+fn explanations_tell_the_area_that_the_picture_has() {
+    let scene = svg(r#"<circle cx="3.2" cy="4.1" r="2.9"/>"#);
+    let mut cut = 0;
+    for i in 0..64 {
+        let found = advised(&scene, &exact(), [8, 8], [i % 8, i / 8]);
+        for paint in &found.paints {
+            if let (Some(area), Some(covered)) = (paint.area, paint.covered) {
+                assert!((area - covered).abs() < 1e-4, "pixel {i}: {area} and {covered}");
+                cut += u32::from(covered < 1.0);
+            }
+        }
+    }
+    assert!(cut > 10, "{cut} pixels at the edge");
 }
 
 #[test]

@@ -9,7 +9,7 @@ const ROWS: usize = 16;
 
 /// Differences of two pictures' channels in levels of 255.
 ///
-/// Alpha counts as a fourth channel where any pixel of either picture is not opaque.
+/// Alpha counts as a fourth channel where any pixel of either picture is not opaque, and alone where one is wholly transparent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Levels {
     /// Pixels in either picture.
@@ -176,9 +176,21 @@ impl Count {
     }
 }
 
+/// What of two pixels `0xAARRGGBB` is compared: where either is wholly transparent, and so has no colour, their alphas alone.
+#[inline]
+pub(super) fn compared(a: u32, b: u32) -> [u32; 2] {
+    let mask = if a >> 24 == 0 || b >> 24 == 0 {
+        0xff00_0000
+    } else {
+        u32::MAX
+    };
+    [a & mask, b & mask]
+}
+
 /// How far red, green, blue and alpha of two pixels `0xAARRGGBB` are apart.
 #[inline]
 pub(super) fn channel_levels(a: u32, b: u32) -> [u8; 4] {
+    let [a, b] = compared(a, b);
     let ([aa, ar, ag, ab], [ba, br, bg, bb]) = (a.to_be_bytes(), b.to_be_bytes());
     [ar.abs_diff(br), ag.abs_diff(bg), ab.abs_diff(bb), aa.abs_diff(ba)]
 }
@@ -227,6 +239,18 @@ mod tests {
         assert_eq!((levels.channels, levels.differing()), (4, 1), "alpha counts");
         assert_eq!(levels.largest[3], Some(Largest { level: 8, at: [0, 1] }), "in alpha");
         assert!((levels.mae() - 1.0).abs() < 1e-12, "8 levels in eight channels");
+    }
+
+    #[test]
+    fn what_is_transparent_has_no_colour() {
+        // Opaque white, pale white and red against what is not there.
+        let a = frame(1, &[0xFFFF_FFFF, 0x0AFF_FFFF, 0]);
+        let b = frame(1, &[0, 0, 0x80FF_0000]);
+        let levels = Pair::new(&a, &b).expect("one size").levels();
+        let largest = Some(Largest { level: 255, at: [0, 0] });
+        assert_eq!(levels.largest, [None, None, None, largest], "alpha alone");
+        assert_eq!(levels.squared_error(), 255 * 255 + 10 * 10 + 128 * 128, "of alpha");
+        assert_eq!(levels.beyond(10), 2, "pale white is nearly nothing");
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub fn encoded_size(bytes: &[u8]) -> Result<[u32; 2], DecodeError> {
 }
 
 /// Decodes a PNG or JPEG to a frame. Channels of 16 bits are rounded to 8, grey becomes colour, and the hidden colour
-/// of a wholly transparent pixel becomes black, so that it counts nowhere.
+/// of a wholly transparent pixel becomes black: it shows nowhere, and is compared with nothing.
 ///
 /// # Errors
 /// When the bytes are neither, are damaged, or the picture is larger than a frame may be.

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Pair;
+use super::levels::compared;
 use crate::color::Colormap;
 use crate::raster::Framebuffer;
 use crate::render::{Legend, LegendKey};
@@ -263,6 +264,7 @@ impl Pair<'_> {
 fn signed_levels(a: &[u32], b: &[u32], levels: &mut [i32; BLOCK]) {
     let mut ties = false;
     for (level, (a, b)) in levels.iter_mut().zip(a.iter().zip(b)) {
+        let [a, b] = compared(*a, *b);
         let channel = |shift: u32| (b >> shift & 0xff).cast_signed() - (a >> shift & 0xff).cast_signed();
         let [one, two, three, four] = [16, 8, 0, 24].map(channel);
         let most = one.max(two).max(three.max(four));
@@ -287,6 +289,7 @@ fn level_index(level: i32) -> usize {
 /// The difference `b - a` in levels of the channel that differs most; of equal ones red comes before green, blue, alpha.
 #[inline]
 fn signed_level(a: u32, b: u32) -> i32 {
+    let [a, b] = compared(a, b);
     let ([aa, ar, ag, ab], [ba, br, bg, bb]) = (a.to_be_bytes(), b.to_be_bytes());
     let pairs = [(ar, br), (ag, bg), (ab, bb), (aa, ba)];
     pairs.into_iter().fold(0, |most: i32, (a, b)| {
@@ -329,13 +332,11 @@ impl RelativeTable {
     /// The largest relative difference among four channels, times the gain.
     #[inline]
     fn difference(&self, a: u32, b: u32) -> f32 {
-        a.to_be_bytes()
-            .into_iter()
-            .zip(b.to_be_bytes())
-            .fold(0.0, |most, (a, b)| {
-                let difference = f32::from(a.abs_diff(b)) * self.0[usize::from(a)];
-                difference.max(most)
-            })
+        let [a, b] = compared(a, b).map(u32::to_be_bytes);
+        a.into_iter().zip(b).fold(0.0, |most, (a, b)| {
+            let difference = f32::from(a.abs_diff(b)) * self.0[usize::from(a)];
+            difference.max(most)
+        })
     }
 }
 
@@ -398,6 +399,25 @@ mod tests {
         ] {
             let words = measure.marks(gain, is_normalized).join(" | ");
             assert_eq!(words, expected, "{measure:?} times {gain}");
+        }
+    }
+
+    #[test]
+    fn what_is_transparent_shows_its_alpha_alone() {
+        for measure in Measure::ALL {
+            let paint = DifferencePaint::new(measure, 1.0);
+            for (a, b) in [(0x0aff_ffff, 0), (0x00ff_ffff, 0x0aff_0000)] {
+                let expected = paint.pixel(a & 0xff00_0000, b & 0xff00_0000);
+                assert_eq!(paint.pixel(a, b), expected, "{measure:?}");
+                let mut row = [0; 1];
+                paint.row(&[a], &[b], &mut row);
+                assert_eq!(row[0], expected, "{measure:?}, in a row");
+            }
+            assert_ne!(
+                paint.pixel(0x0aff_ffff, 0),
+                paint.pixel(0xff00_0000, 0xffff_ffff),
+                "{measure:?}: ten levels, not all"
+            );
         }
     }
 

@@ -7,6 +7,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
+use super::levels::compared;
 use crate::geometry::{View, ViewTransform};
 use crate::post::PostProcess;
 use crate::raster::{Framebuffer, SampleRate};
@@ -134,7 +135,8 @@ pub(super) fn squared(ours: u32, theirs: u32) -> u64 {
     if ours == theirs {
         return 0;
     }
-    let channels = ours.to_be_bytes().into_iter().zip(theirs.to_be_bytes());
+    let [ours, theirs] = compared(ours, theirs).map(u32::to_be_bytes);
+    let channels = ours.into_iter().zip(theirs);
     channels.map(|(a, b)| u64::from(a.abs_diff(b)).pow(2)).sum()
 }
 
@@ -160,7 +162,7 @@ fn flip_v(primitives: &mut [Primitive]) {
     }
 }
 
-/// Moves what has an area, in user units.
+/// Moves what has an area, in canvas units.
 fn move_shapes(primitives: &mut [Primitive], by: DVec2) {
     for primitive in primitives {
         match &mut primitive.kind {

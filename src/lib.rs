@@ -53,7 +53,8 @@
 //!
 //! # Conventions
 //!
-//! * **User space**: y down, the document's units, `f64`.
+//! * **User space**: y down, canvas units, `f64`: those of the document's `width` and `height`. What SVG calls user space, inside of
+//!   a `viewBox` or a transform, ends where a document is read.
 //! * **Screen space**: pixels, y down; pixel `(x, y)` covers `[x, x+1) x [y, y+1)`, its centre is at `+0.5`.
 //! * **Texture space**: `(u, v)` in `[0, 1]`, `(0, 0)` is the corner of the first row's first texel.
 //! * A *sample* is a point where coverage is tested; a *pixel* is the weighted mean of its samples; a *texel*

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::geometry::View;
 
-/// Reads a view: its name, or centre, pixels per user unit and rotation in degrees.
+/// Reads a view: its name, or centre, pixels per canvas unit and rotation in degrees.
 pub(super) fn parse(text: &str) -> Result<View, String> {
     match text {
         "default" => return Ok(View::Default),
@@ -12,7 +12,7 @@ pub(super) fn parse(text: &str) -> Result<View, String> {
         _ => {}
     }
     let problem = || {
-        "a view is default, canvas, or CX,CY,SCALE[,ROTATION]: centre in user units, pixels per unit above zero, degrees"
+        "a view is default, canvas, or CX,CY,SCALE[,ROTATION]: centre in canvas units, pixels per unit above zero, degrees"
             .to_owned()
     };
     let numbers: Option<Vec<f64>> = text

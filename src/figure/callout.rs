@@ -148,7 +148,7 @@ impl InsetPlace {
     pub fn words(&self) -> String {
         match self {
             Self::Pixel([x, y]) => format!("pixel ({x}, {y})"),
-            Self::User(at) => format!("({}, {}) in user units", at.x, at.y),
+            Self::User(at) => format!("({}, {}) in canvas units", at.x, at.y),
         }
     }
 }
@@ -192,7 +192,7 @@ impl FromStr for InsetSpec {
     }
 }
 
-/// `X,Y` in pixels, or `uX,Y` in user units.
+/// `X,Y` in pixels, or `uX,Y` in canvas units.
 fn place(text: &str) -> Option<InsetPlace> {
     let text = text.trim();
     if let Some(user) = text.strip_prefix('u') {

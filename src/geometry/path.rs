@@ -121,7 +121,7 @@ impl CurvedArea {
         self.path.is_straight() && !self.stroke.as_ref().is_some_and(round)
     }
 
-    /// Closed contours in user space whose edges are nowhere further than `tolerance` user units from the area's border; a
+    /// Closed contours in user space whose edges are nowhere further than `tolerance` canvas units from the area's border; a
     /// stroke's are to be filled by the non-zero rule.
     pub fn flattened(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
         let matrix = self.to_user.matrix2;

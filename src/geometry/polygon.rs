@@ -39,7 +39,7 @@ pub struct Polygon {
 #[derive(Debug)]
 struct Curves {
     area: CurvedArea,
-    /// Samples per user unit for which the contours are fine enough.
+    /// Samples per canvas unit for which the contours are fine enough.
     scale: f64,
     /// How often that scale was doubled last, and the contours for it.
     finer: Mutex<Option<(u32, Arc<Polygon>)>>,
@@ -76,7 +76,7 @@ impl Polygon {
         }
     }
 
-    /// The contours of an area with curved edges, good for views of up to `scale` samples per user unit;
+    /// The contours of an area with curved edges, good for views of up to `scale` samples per canvas unit;
     /// [`Polygon::at_scale`] gives finer ones. A stroke is filled by the non-zero rule, whatever `rule` says.
     pub fn curved(area: CurvedArea, rule: FillRule, scale: f64) -> Self {
         let is_stroke = area.stroke.is_some();
@@ -100,7 +100,7 @@ impl Polygon {
         }
     }
 
-    /// The same area with edges fine enough for a view of so many samples per user unit: nowhere further from the curve
+    /// The same area with edges fine enough for a view of so many samples per canvas unit: nowhere further from the curve
     /// than a tenth of the distance between samples. `None` where this one is fine enough itself.
     ///
     /// Scales are taken in steps of two, so that a view that moves sees the same edges.
@@ -119,7 +119,7 @@ impl Polygon {
         Some(polygon)
     }
 
-    /// The same polygon moved by some user units.
+    /// The same polygon moved by some canvas units.
     #[must_use]
     pub fn moved(&self, by: DVec2) -> Self {
         if let Some(curves) = &self.curves {

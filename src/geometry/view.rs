@@ -13,7 +13,7 @@ const DEFAULT_MARGIN: f64 = 1.2;
 /// use rasterscope::View;
 /// use rasterscope::glam::DVec2;
 ///
-/// // Two pixels per user unit around a point of the scene.
+/// // Two pixels per canvas unit around a point of the scene.
 /// let view = View::At {
 ///     center: DVec2::new(500.0, 375.0),
 ///     scale: 2.0,
@@ -32,14 +32,14 @@ pub enum View {
     At {
         /// The user-space point in the centre of the frame.
         center: DVec2,
-        /// Pixels per user unit, above zero.
+        /// Pixels per canvas unit, above zero.
         scale: f64,
         /// Clockwise on the screen, in degrees.
         rotation: f64,
     },
 }
 
-/// A place in user units with as many digits as tell hundredths of a pixel apart, where a unit has `scale` pixels.
+/// A place in canvas units with as many digits as tell hundredths of a pixel apart, where a unit has `scale` pixels.
 pub fn rounded_place(place: DVec2, scale: f64) -> DVec2 {
     let digits = (scale.abs() * 100.0).log10().ceil();
     DVec2::new(rounded(place.x, digits), rounded(place.y, digits))
@@ -74,7 +74,7 @@ impl fmt::Display for View {
 }
 
 impl View {
-    /// The map to pixels for a canvas of `canvas` user units in a frame of `size` pixels.
+    /// The map to pixels for a canvas of `canvas` canvas units in a frame of `size` pixels.
     pub fn transform(self, canvas: DVec2, size: [u32; 2]) -> ViewTransform {
         let frame = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         match self {
@@ -111,7 +111,7 @@ impl View {
         }
     }
 
-    /// Pixels per user unit of the default view.
+    /// Pixels per canvas unit of the default view.
     pub fn default_scale(canvas: DVec2, size: [u32; 2]) -> f64 {
         f64::from(size[0].min(size[1])) / (DEFAULT_MARGIN * canvas.max_element())
     }

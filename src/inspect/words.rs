@@ -27,7 +27,7 @@ impl Explanation {
         let unit = self.color.map(|byte| format!("{:.4}", f64::from(byte) / 255.0));
         let mut lines = vec![
             format!(
-                "user units  ({}, {}), the pixel's centre",
+                "centre      ({}, {}) in canvas units",
                 number(self.user[0]),
                 number(self.user[1])
             ),

@@ -106,7 +106,7 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// Pixels per user unit, in the direction in which there are most.
+/// Pixels per canvas unit, in the direction in which there are most.
 fn pixels_per_unit(view: &ViewTransform) -> f64 {
     let matrix = view.scene_to_pixels.matrix2;
     matrix.x_axis.length().max(matrix.y_axis.length())

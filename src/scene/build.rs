@@ -407,7 +407,7 @@ pub(super) struct FilledArea {
 /// What the edges of an area shall be like.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edges {
-    /// Samples per user unit for which they are fine enough.
+    /// Samples per canvas unit for which they are fine enough.
     pub(super) scale: f64,
     /// Whether whole pixels are covered: those whose middles are inside.
     pub(super) crisp: bool,

@@ -57,9 +57,9 @@ pub enum Problem {
     /// The canvas has no area, or is larger than numbers go.
     #[error("the canvas is {width} x {height}; give <svg> a width and height above zero")]
     Canvas {
-        /// Its width in user units.
+        /// Its width in canvas units.
         width: f64,
-        /// Its height in user units.
+        /// Its height in canvas units.
         height: f64,
     },
     /// A word for what is no number, or none with an end.

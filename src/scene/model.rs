@@ -23,7 +23,7 @@ pub enum Dialect {
 pub struct Scene {
     /// What the document is called in messages: its file or address; empty for a scene that was made in code.
     pub name: Arc<str>,
-    /// Width and height of the canvas in user units, finite and above zero.
+    /// Width and height of the canvas in canvas units, finite and above zero.
     pub canvas: DVec2,
     /// The dialect the document was read in.
     pub dialect: Dialect,

@@ -23,7 +23,7 @@ pub(in crate::cli) struct PictureOptions {
 /// What part of a scene is drawn, and on how many threads.
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct FramingOptions {
-    /// Which part of the scene: a name, or centre, pixels per user unit and degrees
+    /// Which part of the scene: a name, or centre, pixels per canvas unit and degrees
     #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(in crate::cli) view: View,
     /// Threads that draw or compare [default: one per core]

@@ -23,7 +23,7 @@ pub(in crate::cli) struct RenderOptions {
     #[command(flatten)]
     pub(in crate::cli) picture: PictureOptions,
 
-    /// Magnify a region in a corner: X,Y is its middle in pixels, uX,Y in user units; may come several times
+    /// Magnify a region in a corner: X,Y is its middle in pixels, uX,Y in canvas units; may come several times
     #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
     pub(in crate::cli) insets: Vec<InsetSpec>,
 }

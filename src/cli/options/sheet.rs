@@ -20,7 +20,7 @@ pub(in crate::cli) struct SheetOptions {
     /// Pixels of each panel [default: squares that make the sheet 1890 pixels wide, 16 cm at 300 dpi]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(in crate::cli) size: Option<FrameSize>,
-    /// Magnify a region of every panel: X,Y is its middle in pixels, uX,Y in user units; may come several times
+    /// Magnify a region of every panel: X,Y is its middle in pixels, uX,Y in canvas units; may come several times
     #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
     pub(in crate::cli) insets: Vec<InsetSpec>,
     /// Dark ink on white for print, or light ink on black for slides

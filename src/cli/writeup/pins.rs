@@ -19,7 +19,7 @@ pub(super) const FILE: &str = "pins.toml";
 /// Largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 /// What the file says first.
-const HEAD: &str = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for user units.\n\
+const HEAD: &str = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for canvas units.\n\
                     # Edit a line and run `rasterscope writeup` again; a line that is deleted is proposed anew.\n";
 
 /// The pins by their names.

@@ -23,7 +23,7 @@ pub(super) struct Painter<'a, 'doc> {
     pub(super) elements: &'a Elements<'doc>,
     pub(super) pictures: &'a [Picture],
     pub(super) effects: Rc<Effects>,
-    /// Samples per user unit for which edges of curves are fine enough.
+    /// Samples per canvas unit for which edges of curves are fine enough.
     pub(super) scale: f64,
     pub(super) servers: Servers,
     pub(super) texture_files: TextureFiles<'doc>,

@@ -72,7 +72,7 @@ pub enum ViewCommand {
     Reset,
     /// The largest view that shows the whole canvas; the rotation stays.
     Fit,
-    /// One user unit is one pixel; the middle of the window stays.
+    /// One canvas unit is one pixel; the middle of the window stays.
     ActualSize,
     /// The view with exactly these numbers.
     Set(ViewNumbers),

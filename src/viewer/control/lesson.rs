@@ -259,7 +259,7 @@ impl Lessons<'_> {
         true
     }
 
-    /// The place that is pinned in the current scene, in user units.
+    /// The place that is pinned in the current scene, in canvas units.
     fn pinned_place(&self) -> Option<DVec2> {
         let (place, scene) = self.inspector.magnifier.pin?.place?;
         (scene == self.scene_list.identity()).then_some(place)

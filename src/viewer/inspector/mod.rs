@@ -115,7 +115,7 @@ pub struct AskedAt {
 pub(in crate::viewer) struct Pin {
     /// The frame pixel that the place falls in now; it may lie outside the frame.
     pub(in crate::viewer) pixel: [i64; 2],
-    /// The place in user units, and the scene's number and generation; `None` until the scene was read.
+    /// The place in canvas units, and the scene's number and generation; `None` until the scene was read.
     pub(in crate::viewer) place: Option<(DVec2, (usize, u64))>,
 }
 

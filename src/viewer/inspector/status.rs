@@ -13,7 +13,7 @@ pub struct Status {
     pub user: DVec2,
     /// Its colour, straight `[r, g, b, a]`; `None` before the first frame.
     pub rgba: Option<[u8; 4]>,
-    /// Frame pixels per user unit: tells how many digits of `user` mean something.
+    /// Frame pixels per canvas unit: tells how many digits of `user` mean something.
     pub scale: f64,
 }
 

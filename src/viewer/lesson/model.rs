@@ -32,7 +32,7 @@ pub struct LessonStep {
     pub settings: Vec<SettingChange>,
     /// From where; `None` is the whole canvas in the part of the window that is free.
     pub view: Option<ViewNumbers>,
-    /// The pinned place, in user units.
+    /// The pinned place, in canvas units.
     pub pin: Option<DVec2>,
     /// Whether it shows why the pinned pixel has its colour.
     pub explained: bool,

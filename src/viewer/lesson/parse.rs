@@ -242,7 +242,7 @@ fn scene(value: &Value<'_>, folder: Option<&Path>) -> Found<SceneSource> {
 fn pin(value: &Value<'_>) -> Found<DVec2> {
     match point(&text(value)?) {
         Some(place) => Ok(place),
-        None => mistake(value.span(), "a pin is a place of the scene, \"X,Y\" in user units"),
+        None => mistake(value.span(), "a pin is a place of the scene, \"X,Y\" in canvas units"),
     }
 }
 
@@ -374,8 +374,8 @@ mod tests {
             (step("sample-rate = [4]"), "4:15", "command line"),
             (step("pattern = \"poisson\""), "4:11", "grid|rotated"),
             (step("view = \"1,2\""), "4:8", "X,Y,SCALE"),
-            (step("pin = \"1\""), "4:7", "user units"),
-            (step("pin = \"nan,0\""), "4:7", "user units"),
+            (step("pin = \"1\""), "4:7", "canvas units"),
+            (step("pin = \"nan,0\""), "4:7", "canvas units"),
             (step("arrange = \"wipe\""), "4:1", "against"),
             (step("against = \"/etc/passwd\""), "4:11", "truth"),
             (step("sample-rate = 4\nsample-rate = 9"), "5:1", "not TOML"),

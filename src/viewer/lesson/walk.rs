@@ -52,7 +52,7 @@ pub(in crate::viewer) struct Before {
     pub(in crate::viewer) settings: Settings,
     pub(in crate::viewer) explanation: bool,
     pub(in crate::viewer) comparison: Kept,
-    /// The pinned place of the current scene, in user units.
+    /// The pinned place of the current scene, in canvas units.
     pub(in crate::viewer) pin: Option<DVec2>,
     /// Whether the pixel inspector was open.
     pub(in crate::viewer) inspector: bool,

@@ -28,7 +28,7 @@ pub(in crate::viewer) struct Profiling {
 struct PlacedLine {
     /// The frame pixels that its ends fall in now; they may lie outside the frame.
     line: Line,
-    /// The ends in user units, and the scene's number and generation; `None` until the scene was read.
+    /// The ends in canvas units, and the scene's number and generation; `None` until the scene was read.
     places: Option<([DVec2; 2], (usize, u64))>,
 }
 

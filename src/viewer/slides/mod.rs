@@ -42,7 +42,7 @@ pub enum SlideError {
     PinOutside {
         /// Number of the step, from 1.
         step: usize,
-        /// The pin, in user units.
+        /// The pin, in canvas units.
         x: f64,
         /// See `x`.
         y: f64,

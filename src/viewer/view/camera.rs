@@ -28,7 +28,7 @@ pub struct Camera {
 /// What a camera looks at and through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewContext {
-    /// The canvas in user units.
+    /// The canvas in canvas units.
     pub canvas: DVec2,
     /// The frame in pixels.
     pub frame: [u32; 2],
@@ -39,7 +39,7 @@ pub struct ViewContext {
 pub struct ViewNumbers {
     /// The user-space point in the middle of the frame.
     pub center: DVec2,
-    /// Frame pixels per user unit.
+    /// Frame pixels per canvas unit.
     pub scale: f64,
     /// Clockwise, in degrees, above -180 and up to 180.
     pub rotation: f64,
@@ -254,7 +254,7 @@ impl Camera {
         }
     }
 
-    /// One user unit is one frame pixel; the middle of the frame stays.
+    /// One canvas unit is one frame pixel; the middle of the frame stays.
     pub fn actual_size(&mut self, context: &ViewContext) {
         let numbers = self.numbers(context);
         self.set(ViewNumbers { scale: 1.0, ..numbers }, context);

@@ -79,7 +79,7 @@ fn writeup_takes_own_files_and_pins() {
     }
     fs::create_dir(at("out")).unwrap();
     // The first pin was proposed for another picture.
-    let pins = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for user units.\n# By `rasterscope writeup`.\nown = \"u4,5:8@4:top-left\"\ntest4 = \"u20,30:8@4:top-left\"\n";
+    let pins = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for canvas units.\n# By `rasterscope writeup`.\nown = \"u4,5:8@4:top-left\"\ntest4 = \"u20,30:8@4:top-left\"\n";
     fs::write(at("out/pins.toml"), pins).unwrap();
     fs::create_dir(at("out/scenes")).unwrap();
     fs::write(

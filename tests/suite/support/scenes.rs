@@ -53,7 +53,7 @@ pub(crate) fn triangle(points: [(f64, f64); 3], color: Rgba) -> PrimitiveKind {
     }
 }
 
-/// A view in which one user unit is one pixel and the frame shows the canvas from its corner on.
+/// A view in which one canvas unit is one pixel and the frame shows the canvas from its corner on.
 pub(crate) fn one_to_one(size: [u32; 2]) -> ViewTransform {
     let center = DVec2::new(f64::from(size[0]), f64::from(size[1])) / 2.0;
     View::At {

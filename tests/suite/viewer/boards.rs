@@ -15,7 +15,7 @@ use rasterscope::viewer::{
 
 use crate::support::session::{SQUARE, Session, TRIANGLES, set};
 
-/// A window in which a user unit is a pixel.
+/// A window in which a canvas unit is a pixel.
 fn session() -> Session {
     let mut session = Session::open(&[TRIANGLES, SQUARE], [200, 100]);
     session.run(Command::View(ViewCommand::Set(ViewNumbers {

@@ -14,7 +14,7 @@ const EDGE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" heigh
 </svg>"##;
 const LINE: [[i64; 2]; 2] = [[30, 50], [70, 50]];
 
-/// A window in which a user unit is a pixel.
+/// A window in which a canvas unit is a pixel.
 fn session() -> Session {
     let mut session = Session::open(&[EDGE], [100, 100]);
     session.run(Command::View(ViewCommand::Set(ViewNumbers {

@@ -22,7 +22,7 @@ fn spectrum(command: SpectrumCommand) -> Command {
     Command::Spectrum(command)
 }
 
-/// A window in which a user unit is a pixel.
+/// A window in which a canvas unit is a pixel.
 fn session() -> Session {
     let mut session = Session::open(&[STRIPES], [200, 160]);
     at_scale(&mut session, 1.0);

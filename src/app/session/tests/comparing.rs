@@ -148,7 +148,10 @@ fn explanation_keeps_its_side_for_a_pin_that_leaves_a_half() {
         let before = place_of(&mut session, CLOSE);
         for name in ["Show: side", "Show: diff", "Show: side"] {
             click_on(&mut session, name);
-            assert!(says(&mut session, "user units"), "explained with {name} of {window:?}");
+            assert!(
+                says(&mut session, "canvas units"),
+                "explained with {name} of {window:?}"
+            );
             assert_eq!(place_of(&mut session, CLOSE), before, "{name} of {window:?}");
         }
     }

@@ -31,7 +31,7 @@ fn explanation_that_a_lesson_speaks_of_is_a_click_away() {
     for window in [[480, 480], [640, 480], [800, 600], [900, 700]] {
         let mut session = at_step(EXPLAINED, window);
         let text = |session: &mut Session| says(session, "sixteen");
-        let explained = |session: &mut Session| says(session, "Sample by sample") || says(session, "user units");
+        let explained = |session: &mut Session| says(session, "Sample by sample") || says(session, "canvas units");
         assert!(says(&mut session, "sixteen"), "the text comes first in {window:?}");
         let places = |session: &mut Session| ["Next scene", PAGES[0], PAGES[1]].map(|name| place_of(session, name));
         let (before, free) = (places(&mut session), session.free_area);
@@ -64,11 +64,11 @@ fn key_turns_the_page_of_a_step_that_explains() {
     let mut session = at_step(EXPLAINED, [800, 600]);
     key(&mut session, "e");
     session.settle();
-    assert!(says(&mut session, "user units"), "what nobody saw is not closed");
+    assert!(says(&mut session, "canvas units"), "what nobody saw is not closed");
     key(&mut session, "e");
     session.settle();
     assert!(
-        !says(&mut session, "user units") && says(&mut session, "sixteen"),
+        !says(&mut session, "canvas units") && says(&mut session, "sixteen"),
         "the text again"
     );
 }

@@ -45,7 +45,7 @@ fn comparison_stays_at_hand_beside_an_explained_pixel() {
     for window in [[800, 600], [1280, 800], [1366, 768], [1920, 1080]] {
         let mut session = comparing(window);
         right_click(&mut session, [330.0, 300.0]);
-        assert!(says(&mut session, "user units"), "the explanation at {window:?}");
+        assert!(says(&mut session, "canvas units"), "the explanation at {window:?}");
         click_on(&mut session, "Show: wipe");
         assert_eq!(session.viewer.ab().arrangement(), Arrangement::Wipe, "{window:?}");
         for name in ["Show: side", "Show: diff", "Show: flip", "Show: A", "Next difference"] {
@@ -242,16 +242,16 @@ fn lines_of_a_comparison_follow_a_swap_with_the_truth() {
 fn another_pixel_is_explained_from_the_top() {
     let mut session = session(Vec::new(), [1280, 600]);
     right_click(&mut session, [700.0, 300.0]);
-    let top = top_of(&mut session, "user units");
+    let top = top_of(&mut session, "canvas units");
     session.pointer(Some(dvec2(100.0, 300.0)));
     for _ in 0..8 {
         session.wheel(-1.0);
         session.settle();
     }
-    let scrolled = top_of(&mut session, "user units");
+    let scrolled = top_of(&mut session, "canvas units");
     assert!(scrolled < top - 20.0, "{scrolled} after the wheel, {top} before");
     right_click(&mut session, [720.0, 310.0]);
-    let again = top_of(&mut session, "user units");
+    let again = top_of(&mut session, "canvas units");
     assert!((again - top).abs() < 1.0, "{again}, not {top}");
 }
 

@@ -35,7 +35,7 @@ pub(super) static VIEW: &[CommandSpec] = &[
     spec(
         "actual-size",
         "Actual size",
-        "Makes one user unit one pixel",
+        "Makes one canvas unit one pixel",
         Group::View,
     )
     .keys(&[Chord::ctrl('0')])

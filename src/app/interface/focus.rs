@@ -1,11 +1,13 @@
 //! The keyboard in panels: a key goes from panel to panel, Tab from control to control inside them, and what has the focus is
-//! outlined.
+//! outlined and scrolled into sight.
 //!
 //! Every panel begins with a head that is not to be seen and can have the focus, as `Sense::focusable_noninteractive` is for:
 //! from there Tab finds the panel's first control.
 
+use egui::accesskit::{Action, ActionRequest, TreeId};
 use egui::{
-    Color32, Context, CornerRadius, Id, LayerId, Order, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    Color32, Context, CornerRadius, Event, Id, LayerId, Order, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo,
 };
 
 use super::look;
@@ -88,6 +90,8 @@ impl FocusPanel {
 struct Place {
     layer: LayerId,
     rect: Rect,
+    /// What of it is in sight: an area that scrolls cuts off the rest.
+    seen: Rect,
 }
 
 impl Place {
@@ -96,6 +100,7 @@ impl Place {
         Self {
             layer: response.layer_id,
             rect: response.rect,
+            seen: response.interact_rect,
         }
     }
 
@@ -178,9 +183,36 @@ pub(super) fn takes(ctx: &Context, press: &KeyPress) -> bool {
     is_plain && steers && focused(ctx).is_some()
 }
 
-/// Outlines what has the focus, above everything.
+/// What scrolls to the control that a key gave the focus since the last pass, where an area that scrolls hides a part of it: the
+/// request that screen readers make, as egui finds the area. A press of the mouse scrolls nothing away from below it.
+pub(super) fn scroll_to(ctx: &Context) -> Option<Event> {
+    let last = Id::unique("what had the focus in the last pass");
+    let id = ctx.memory(egui::Memory::focused);
+    let before = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<Option<Id>>(last), id));
+    let id = id.filter(|id| before != Some(*id))?;
+    let by_mouse = ctx.input(|input| input.pointer.any_down() || input.pointer.any_released());
+    let place = Place::of(ctx.read_response(id)?);
+    // Half a point is a matter of rounding.
+    if by_mouse || place.seen.expand(0.5).contains_rect(place.rect) {
+        return None;
+    }
+    ctx.request_repaint();
+    Some(Event::AccessKitActionRequest(ActionRequest {
+        action: Action::ScrollIntoView,
+        target_tree: TreeId::ROOT,
+        target_node: id.accesskit_id(),
+        data: None,
+    }))
+}
+
+/// Whether Tab left the last control, so that the next pass gives the focus to the first.
+pub(super) fn goes_round(ctx: &Context) -> bool {
+    focused(ctx).is_none() && ctx.input(|input| input.key_pressed(egui::Key::Tab))
+}
+
+/// Outlines what has the focus, above everything but not where it is cut off.
 pub(super) fn outline(ctx: &Context) {
-    let Some(place) = focused(ctx).filter(|_| !ctx.text_edit_focused()) else {
+    let Some(place) = focused(ctx).filter(|place| place.seen.is_positive() && !ctx.text_edit_focused()) else {
         return;
     };
     let (accent, ground) = ctx
@@ -193,7 +225,7 @@ pub(super) fn outline(ctx: &Context) {
             |ground| (Color32::from_rgb(120, 178, 255), ground),
         );
     let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, Id::unique("focus")));
-    let place = place.rect.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
+    let place = place.seen.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
     for (width, color) in [(2.0 * OUTLINE, ground), (OUTLINE, accent)] {
         painter.rect_stroke(
             place,

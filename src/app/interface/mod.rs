@@ -57,7 +57,7 @@ mod view_numbers;
 mod waiting;
 mod widths;
 
-use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
+use egui::{Area, Context, Event, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
 use glam::DVec2;
 
 use crate::viewer::{Chrome, Command, KeyPress, PixelRect, Theme, ViewNumbers, Viewer, WindowCommand};
@@ -136,6 +136,10 @@ pub(super) struct Asked {
     pub(super) commands: Vec<Command>,
     /// Scenes whose thumbnails are in sight and missing.
     pub(super) thumbnails: Vec<usize>,
+    /// What the next pass is to begin with.
+    pub(super) scroll: Option<Event>,
+    /// Whether the focus is on its way round, and wants another pass.
+    pub(super) goes_round: bool,
 }
 
 impl Interface {
@@ -319,6 +323,8 @@ impl Interface {
         let thumbnails = self.dialogs.show(&ctx, viewer, &mut asked.commands);
         asked.thumbnails.extend(thumbnails);
         self.take_step();
+        asked.scroll = focus::scroll_to(&ctx);
+        asked.goes_round = focus::goes_round(&ctx);
         focus::outline(&ctx);
     }
 

@@ -107,17 +107,10 @@ pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Ways {
     let gap = ui.spacing().item_spacing.x;
     let width = ((ui.available_width() - gap * (columns - 1) as f32) / columns as f32).floor();
     let ways = ways_of(viewer);
-    let focused = Id::unique("way that has the focus");
     for row in ways.chunks(columns) {
         ui.horizontal(|ui| {
             for way in row {
                 let button = button(ui, way, width);
-                // Tab leads to what a small window has no room for, too. What gets the focus between two passes has not gained it for
-                // egui.
-                if button.has_focus() && ui.data(|data| data.get_temp(focused)) != Some(button.id) {
-                    ui.data_mut(|data| data.insert_temp(focused, button.id));
-                    button.scroll_to_me(None);
-                }
                 if button.clicked() {
                     found.taken.clone_from(&way.does);
                 }

@@ -345,8 +345,8 @@ impl Session {
             turn.next = Duration::MAX;
             return turn;
         }
-        input.events.append(&mut self.events);
         for _ in 0..MAX_PASSES {
+            input.events.append(&mut self.events);
             input.time = Some(self.now());
             let scale = self.scale();
             let points = vec2(size[0] as f32, size[1] as f32) / scale;
@@ -414,7 +414,8 @@ impl Session {
         for index in asked.thumbnails {
             self.viewer.request_thumbnail(index);
         }
-        let mut any = false;
+        let mut any = asked.goes_round || asked.scroll.is_some();
+        self.events.extend(asked.scroll);
         for command in asked.commands {
             // The layout of a sheet's dialog tells its room in every pass.
             if let Command::Sheet(SheetCommand::SetRoom(room)) = command

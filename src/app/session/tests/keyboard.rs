@@ -8,10 +8,10 @@
 
 use glam::dvec2;
 
-use super::hands::{key, nodes, right_click, session};
+use super::hands::{click_on, key, nodes, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, BoardCommand, LessonSource, ProfileCommand, SpectrumCommand, Toggle};
+use crate::viewer::{AbCommand, Against, BoardCommand, Group, LessonSource, ProfileCommand, SpectrumCommand, Toggle};
 
 /// The name of what has the keyboard; `None` for the picture.
 fn focused(session: &mut Session) -> Option<String> {
@@ -257,4 +257,55 @@ fn what_has_the_keyboard_is_outlined_and_a_click_on_the_picture_takes_it() {
     session.pointer(None);
     session.quiet_turn();
     assert!(session.picture() == before, "the click took the keyboard away");
+}
+
+/// Whether no edge of what scrolls, nor of the window, cuts off the control that has the focus.
+fn is_outlined(session: &mut Session) -> bool {
+    session.settle();
+    let ctx = session.ctx().clone();
+    let response = ctx
+        .memory(egui::Memory::focused)
+        .and_then(|id| ctx.read_response(id))
+        .expect("something has the focus");
+    let window = session.viewer.chrome().window_size().map(|side| side as f32);
+    let window = Rect::from_min_size(Pos2::ZERO, window.into());
+    response.interact_rect.expand(1.0).contains_rect(response.rect) && window.contains_rect(response.interact_rect)
+}
+
+#[test]
+fn what_gets_the_keyboard_comes_into_sight() {
+    let mut low = session(Vec::new(), [1280, 500]);
+    key(&mut low, "F6");
+    key(&mut low, "F6");
+    key(&mut low, "Shift+F6");
+    assert_eq!(focused(&mut low).as_deref(), Some("Panel: settings"));
+    for step in 0..90 {
+        key(&mut low, "Tab");
+        assert!(is_outlined(&mut low), "{:?} after {step} steps", focused(&mut low));
+    }
+    for step in 0..20 {
+        key(&mut low, "Shift+Tab");
+        assert!(is_outlined(&mut low), "{:?} after {step} steps back", focused(&mut low));
+    }
+}
+
+#[test]
+fn lines_of_the_menu_and_of_a_sheet_come_into_sight() {
+    let mut menu = session(Vec::new(), [640, 400]);
+    click_on(&mut menu, "Menu");
+    click_on(&mut menu, Group::Compare.name());
+    menu.pointer(None);
+    let mut seen = std::collections::BTreeSet::new();
+    for name in ["Down", "Right"].into_iter().chain([("Down"); 30]) {
+        key(&mut menu, name);
+        assert!(is_outlined(&mut menu), "{:?}", focused(&mut menu));
+        seen.extend(focused(&mut menu));
+    }
+    assert!(seen.len() > 15, "down to the end of the list: {seen:?}");
+    let mut sheet = session(Vec::new(), [640, 400]);
+    key(&mut sheet, "Shift+S");
+    for _ in 0..40 {
+        key(&mut sheet, "Tab");
+        assert!(is_outlined(&mut sheet), "{:?}", focused(&mut sheet));
+    }
 }

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use egui::{Button, Response, RichText, Ui};
+use egui::{Button, Response, RichText, Sense, Ui};
 
 use super::palette::ENTRY;
 use crate::viewer::{SceneSource, Viewer, kind_of_file, natural_order};
@@ -57,6 +57,8 @@ impl Item {
             self.name.clone()
         };
         let button = Button::selectable(chosen, name).right_text(kind).truncate();
+        // Arrows choose it: Tab goes to the buttons beside the list.
+        let button = button.sense(Sense::CLICK);
         ui.add_sized([ui.available_width(), ENTRY], button)
             .accessible_name(&self.name)
     }

@@ -2,10 +2,13 @@
 
 use egui::style::ScrollAnimation;
 use egui::text::{CCursor, CCursorRange};
-use egui::{Align, Align2, Area, Button, Context, Id, Key, Label, Layout, Modal, Order, Rect, RichText, ScrollArea};
+use egui::{
+    Align, Align2, Area, Button, Context, Event, Id, Key, Label, Layout, Modal, Order, Rect, RichText, ScrollArea,
+};
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
+use super::focus;
 use super::look::{self, CONTROL};
 use super::modal::{BACKDROP, beside, modal};
 use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
@@ -23,6 +26,8 @@ pub(super) struct Dialogs {
     pub(super) text: String,
     pub(super) problem: Option<String>,
     pub(super) chosen: usize,
+    /// The picture to compare with that arrows lead to.
+    pub(super) picked: Option<usize>,
     /// The path of a picture that was typed last: where it was wrong, it need not be typed again.
     path: String,
     /// The text was replaced: its line puts the caret behind it.
@@ -152,7 +157,8 @@ impl Dialogs {
         }
     }
 
-    /// A line of text that has the keyboard. True when Enter was pressed.
+    /// A line of text that has the keyboard from the start, until Tab takes it to a button; what is typed is the line's even then.
+    /// True when Enter was pressed in it.
     pub(super) fn line(&mut self, ui: &mut Ui, name: &str, hint: &str, just_opened: bool) -> bool {
         let id = ui.unique_id().with(name);
         if std::mem::take(&mut self.caret_to_end) {
@@ -160,6 +166,10 @@ impl Dialogs {
             let end = CCursor::new(self.text.chars().count());
             state.cursor.set_char_range(Some(CCursorRange::one(end)));
             state.store(ui.ctx(), id);
+        }
+        // Before the line takes in what was typed in this pass.
+        if just_opened || focus::is_free(ui.ctx()) || types(ui.ctx()) {
+            ui.memory_mut(|memory| memory.request_focus(id));
         }
         let response = ui
             .add(
@@ -170,30 +180,36 @@ impl Dialogs {
                     .margin(vec2(8.0, 6.0)),
             )
             .accessible_name(name);
-        let enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.changed() {
             self.problem = None;
             self.chosen = 0;
+            self.picked = None;
         }
-        if just_opened || !response.has_focus() {
-            response.request_focus();
-        }
-        enter
+        // Enter takes the focus from the line; where a button has it, that is pressed.
+        let enter = ui.input(|input| input.key_pressed(Key::Enter));
+        enter && response.lost_focus() && focus::is_free(ui.ctx())
     }
 
     /// Asks for the argument of a command.
     fn ask(&mut self, ctx: &Context, question: &Question, just_opened: bool, commands: &mut Vec<Command>) {
+        let turn = if question.lists_pictures {
+            arrows(ctx)
+        } else {
+            (false, false)
+        };
         let modal = modal(question.title).show(ctx, |ui| {
             let width = if question.takes_path { 420.0 } else { 300.0_f32 };
             ui.set_width(width.min(ctx.content_rect().width() - 40.0));
             ui.heading(question.title);
-            let enter = self.line(ui, question.name, &question.hint, just_opened);
+            let mut enter = self.line(ui, question.name, &question.hint, just_opened);
             self.problem_line(ui);
-            if question.lists_pictures
-                && let Some(path) = self.pictures(ui)
-            {
-                let compare = Command::Ab(AbCommand::Compare(Against::File(path)));
-                commands.extend([Command::Window(WindowCommand::CloseDialog), compare]);
+            if question.lists_pictures {
+                let takes = enter && self.picked.is_some();
+                enter &= !takes;
+                if let Some(path) = self.pictures(ui, turn, takes) {
+                    let compare = Command::Ab(AbCommand::Compare(Against::File(path)));
+                    commands.extend([Command::Window(WindowCommand::CloseDialog), compare]);
+                }
             }
             let is_empty = self.text.trim().is_empty();
             let pressed = buttons(ui, question.button, is_empty.then_some(question.missing));
@@ -329,8 +345,18 @@ fn question(asking: Dialog, viewer: &Viewer) -> Question {
     }
 }
 
-/// Whether the arrows up and down were pressed: taken before the line of text sees them.
+/// Whether something is typed that no button takes, as those take the space bar.
+fn types(ctx: &Context) -> bool {
+    let is_word = |event: &Event| matches!(event, Event::Text(text) | Event::Paste(text) if !text.trim().is_empty());
+    ctx.input(|input| input.events.iter().any(is_word))
+}
+
+/// Whether the arrows up and down were pressed: taken before the line of text sees them. Those that lead from button to button are
+/// left alone.
 pub(super) fn arrows(ctx: &Context) -> (bool, bool) {
+    if !focus::is_free(ctx) && !ctx.text_edit_focused() {
+        return (false, false);
+    }
     ctx.input_mut(|input| {
         let mut pressed = |key| input.consume_key(egui::Modifiers::NONE, key);
         (pressed(Key::ArrowUp), pressed(Key::ArrowDown))

@@ -166,6 +166,11 @@ fn focused(ctx: &Context) -> Option<Place> {
     ctx.read_response(id).map(Place::of)
 }
 
+/// Whether nothing has the focus, not even what is gone.
+pub(super) fn is_free(ctx: &Context) -> bool {
+    ctx.memory(|memory| memory.focused().is_none())
+}
+
 /// The focus keeps to the controls of this layer, of which this is the first.
 pub(super) fn keep_in(ctx: &Context, layer: LayerId, first: Id) {
     if focused(ctx).is_some_and(|place| place.layer != layer) {

@@ -112,7 +112,8 @@ fn row_of(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         for scene in row {
-            let (rect, response) = ui.allocate_exact_size(vec2(width, CELL.height()), Sense::click());
+            // Arrows choose it, and Tab stays with the line.
+            let (rect, response) = ui.allocate_exact_size(vec2(width, CELL.height()), Sense::CLICK);
             if moves && pictures.chosen == Some(*scene) {
                 response.scroll_to_me(None);
             }

@@ -80,8 +80,9 @@ impl Dialogs {
         }
     }
 
-    /// The pictures and folders of the folder that is listed, to compare with one of them; which was pressed.
-    pub(super) fn pictures(&mut self, ui: &mut Ui) -> Option<PathBuf> {
+    /// The pictures and folders of the folder that is listed, to compare with one of them; which was pressed, or which arrows had
+    /// led to where Enter `takes` that.
+    pub(super) fn pictures(&mut self, ui: &mut Ui, (up, down): (bool, bool), takes: bool) -> Option<PathBuf> {
         let folder = self.chooser.folder().to_owned();
         ui.horizontal(|ui| {
             let up = ui.add_enabled(
@@ -94,14 +95,19 @@ impl Dialogs {
             ui.add(Label::new(RichText::new(folder.display().to_string()).weak().small()).truncate());
         });
         let found = self.chooser.pictures();
+        if up || down {
+            // The first press leads to the first.
+            let picked = self.picked.map_or(0, |at| step(at, [up, down], found.len()));
+            self.picked = (!found.is_empty()).then_some(picked);
+        }
         let row = ENTRY + BETWEEN_ENTRIES;
         let rows = ((ui.ctx().content_rect().height() * 0.8 - REST) / row)
             .floor()
             .clamp(1.0, FEW_ROWS);
         let height = rows * row - BETWEEN_ENTRIES;
         let list = ListShown {
-            chosen: usize::MAX,
-            moves: false,
+            chosen: self.picked.unwrap_or(usize::MAX),
+            moves: up || down,
             height,
         };
         let pressed = ui
@@ -116,6 +122,7 @@ impl Dialogs {
             .inner;
         ui.add_space(4.0);
         let path = pressed
+            .or_else(|| self.picked.filter(|_| takes))
             .and_then(|index| found.get(index))
             .map(|item| item.path.clone())?;
         if path.is_dir() {
@@ -129,6 +136,7 @@ impl Dialogs {
     fn list(&mut self, folder: Option<&Path>) {
         if let Some(folder) = folder {
             self.chooser.go_to(folder);
+            self.picked = None;
         }
     }
 

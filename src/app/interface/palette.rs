@@ -1,6 +1,6 @@
 //! What the command palette finds: commands, values of settings, and scenes.
 
-use egui::{AtomExt as _, Button, Color32, Response, RichText, TextStyle, Ui};
+use egui::{AtomExt as _, Button, Color32, Response, RichText, Sense, TextStyle, Ui};
 
 use super::look::CONTROL;
 use super::menu::capitalized;
@@ -60,6 +60,8 @@ impl Entry {
         let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x;
         let note = RichText::new(&self.note).small().atom_shrink(name.size().x < room);
         let button = Button::selectable(chosen, &self.name).right_text(note).truncate();
+        // Arrows choose it, whatever Tab does.
+        let button = button.sense(Sense::CLICK);
         ui.add_sized([ui.available_width(), ENTRY], button)
             .accessible_name(&self.name)
     }

@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Sense, StrokeKind, TextureHandle};
-use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Role, Sense, StrokeKind, TextureHandle};
+use egui::{TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::controls::{command_button, heading, tip};
 use crate::figure::shrunk;
@@ -288,10 +288,9 @@ pub(super) fn show_picture(
         Some(message) => message.to_owned(),
         None => format!("{}{key}", entry.label),
     };
-    response
-        .on_hover_text(tip)
-        .accessible_name(format!("Scene {}", entry.label))
-        .clicked()
+    // Where nothing gives it the focus, it has its place and its press from here.
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Scene {}", entry.label)));
+    response.on_hover_text(tip).clicked()
 }
 
 /// Paints one scene: its thumbnail, its frame, its name.

@@ -84,6 +84,29 @@ fn picture_to_compare_with_is_chosen_by_mouse() {
 }
 
 #[test]
+fn picture_to_compare_with_is_chosen_by_keys() {
+    let folder = folders();
+    let mut session = session(vec![folder.path().join("outer.svg")], [800, 600]);
+    let frame = session.viewer().frames().frame().expect("a frame").pixels.clone();
+    for name in ["one.png", "two.png"] {
+        crate::figure::save_png(&frame, &folder.path().join(name)).expect("saved");
+    }
+    open_dialog(&mut session, Dialog::ComparePicture);
+    // Folders come first.
+    for name in ["Down", "Down", "Down", "Enter"] {
+        key(&mut session, name);
+        session.settle();
+    }
+    let viewer = session.viewer();
+    assert_eq!(viewer.chrome().dialog(), None, "chosen");
+    let name = match viewer.ab().other() {
+        Some(Other::Picture(picture)) => format!("{picture:?}").contains("two.png"),
+        other => panic!("{other:?}"),
+    };
+    assert!(name, "the second picture below the folder");
+}
+
+#[test]
 fn click_between_lines_of_the_menu_closes_nothing() {
     let mut session = session(Vec::new(), [800, 600]);
     click_on(&mut session, "Menu");

@@ -11,7 +11,9 @@ use glam::dvec2;
 use super::hands::{click_on, key, nodes, right_click, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, BoardCommand, Group, LessonSource, ProfileCommand, SpectrumCommand, Toggle};
+use crate::viewer::{
+    AbCommand, Against, BoardCommand, Dialog, Group, LessonSource, ProfileCommand, SpectrumCommand, Toggle,
+};
 
 /// The name of what has the keyboard; `None` for the picture.
 fn focused(session: &mut Session) -> Option<String> {
@@ -308,4 +310,79 @@ fn lines_of_the_menu_and_of_a_sheet_come_into_sight() {
         key(&mut sheet, "Tab");
         assert!(is_outlined(&mut sheet), "{:?}", focused(&mut sheet));
     }
+}
+
+#[test]
+fn tab_reaches_every_button_of_the_dialogs_that_ask() {
+    for (dialog, line, buttons) in [
+        (
+            Dialog::Open,
+            "File",
+            ["Up", "Home", "Open this folder", "Cancel"].as_slice(),
+        ),
+        (Dialog::ComparePicture, "Path", ["Up", "Cancel"].as_slice()),
+        (Dialog::GoToPixel, "Pixel", ["Cancel"].as_slice()),
+    ] {
+        let mut session = session(Vec::new(), [800, 600]);
+        let nobody = focused(&mut session);
+        session.command(Command::Window(WindowCommand::ToggleDialog(dialog)));
+        session.settle();
+        assert_eq!(
+            focused(&mut session).as_deref(),
+            Some(line),
+            "what is typed is the line's"
+        );
+        let mut seen = Vec::new();
+        for _ in 0..buttons.len() {
+            key(&mut session, "Tab");
+            seen.extend(focused(&mut session));
+        }
+        let missing = buttons.iter().filter(|name| !seen.iter().any(|seen| seen == *name));
+        assert_eq!(missing.count(), 0, "{dialog:?} reaches {seen:?}");
+        key(&mut session, "Tab");
+        assert_eq!(focused(&mut session).as_deref(), Some(line), "and round");
+        key(&mut session, "Shift+Tab");
+        assert_ne!(focused(&mut session).as_deref(), Some(line), "back to the last");
+        session.type_text("7");
+        session.settle();
+        assert_eq!(focused(&mut session).as_deref(), Some(line), "typing goes to the line");
+        let holds = nodes(&mut session).iter().any(|node| node.value() == Some("7"));
+        assert!(holds, "and is taken in there");
+        key(&mut session, "Tab");
+        key(&mut session, "Escape");
+        session.settle();
+        assert_eq!(session.viewer.chrome().dialog(), None, "Esc closes it");
+        assert_eq!(focused(&mut session), nobody, "and gives nothing else the focus");
+    }
+}
+
+#[test]
+fn keys_press_what_tab_reached_in_a_dialog() {
+    let mut session = session(Vec::new(), [800, 600]);
+    key(&mut session, "Ctrl+O");
+    session.settle();
+    for name in ["Shift+Tab", "Enter"] {
+        key(&mut session, name);
+    }
+    session.settle();
+    assert_eq!(
+        session.viewer.chrome().dialog(),
+        None,
+        "the last button closes the dialog"
+    );
+    key(&mut session, "g");
+    session.settle();
+    key(&mut session, "Tab");
+    assert_eq!(
+        focused(&mut session).as_deref(),
+        Some("Scene"),
+        "the page has the line alone"
+    );
+    key(&mut session, "Escape");
+    session.settle();
+    assert!(session.viewer.chrome().dialog().is_none());
+    assert!(
+        session.ctx().memory(|memory| memory.focused().is_none()),
+        "no panel has the focus"
+    );
 }

@@ -1,7 +1,8 @@
 //! What differs between two explanations of the same pixel: A's settings against B's.
 
-use super::model::{Explanation, Paint, Texture};
+use super::model::{Explanation, Texture};
 use super::numbers::{number, percent};
+use super::siblings::parts;
 
 /// One thing that differs, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,30 +56,20 @@ impl Explanation {
             compare("background", percent(mine), percent(other));
         }
         let mut textures: Vec<(String, Difference)> = Vec::new();
-        for paint in self
-            .paints
-            .iter()
-            .chain(b.paints.iter().filter(|paint| self.same(paint).is_none()))
-        {
-            let (mine, other) = (self.same(paint), b.same(paint));
-            let covered = |of: &Self, paint: Option<&Paint>| match paint {
+        for part in parts(self, b) {
+            let covered = |side: usize, of: &Self| match part.covered(side, of) {
                 None if of.exact => "nothing".to_owned(),
                 None => "no sample".to_owned(),
-                Some(paint) => percent(of.covered(paint)),
+                Some(covered) => percent(covered),
             };
-            compare(
-                &format!("{} covers", paint.name()),
-                covered(self, mine),
-                covered(b, other),
-            );
-            if let [Some(mine), Some(other)] = [mine, other].map(|paint| paint.and_then(|paint| paint.texture.as_ref()))
-            {
+            compare(&format!("{} covers", part.name), covered(0, self), covered(1, b));
+            if let [Some(mine), Some(other)] = [0, 1].map(|side| part.texture(side)) {
                 let of_paint = TEXTURE.iter().map(|(what, words)| Difference {
                     what: (*what).to_owned(),
                     a: words(mine),
                     b: words(other),
                 });
-                textures.extend(of_paint.map(|difference| (paint.name(), difference)));
+                textures.extend(of_paint.map(|difference| (part.name.clone(), difference)));
             }
         }
         found.extend(by_what(&textures));
@@ -103,13 +94,6 @@ impl Explanation {
         Some([words(self), words(b)])
     }
 
-    /// The part of the pixel that a paint covers, as the picture counts it: its area, or the part of the samples.
-    fn covered(&self, paint: &Paint) -> f64 {
-        paint
-            .covered
-            .unwrap_or_else(|| paint.fragments.len() as f64 / self.samples.len().max(1) as f64)
-    }
-
     /// The part of the pixel that shows the background; `None` where its one colour does not tell.
     fn background(&self) -> Option<f64> {
         if self.exact {
@@ -117,15 +101,6 @@ impl Explanation {
         }
         let shown = self.samples.iter().filter(|sample| sample.seen.is_none()).count();
         Some(shown as f64 / self.samples.len().max(1) as f64)
-    }
-
-    /// The same part of the same primitive, the topmost where there are several.
-    fn same(&self, paint: &Paint) -> Option<&Paint> {
-        let same = |other: &&Paint| {
-            other.primitive == paint.primitive
-                && std::mem::discriminant(&other.shape) == std::mem::discriminant(&paint.shape)
-        };
-        self.paints.iter().rfind(same)
     }
 }
 

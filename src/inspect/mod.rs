@@ -28,6 +28,7 @@ mod samples;
 mod seams;
 mod seen;
 mod servers;
+mod siblings;
 mod smoothing;
 mod text;
 mod triangle_views;

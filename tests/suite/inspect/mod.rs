@@ -7,3 +7,4 @@ mod painting;
 mod pixels;
 mod reasons;
 mod seams;
+mod siblings;

@@ -190,7 +190,7 @@ impl Opening<'_> {
 
     /// Closes or unpins one thing, the latest first; false when nothing is open.
     pub(in crate::viewer) fn close_latest(&mut self) -> bool {
-        if self.chrome.close_latest() {
+        if self.chrome.close_latest() || self.close_words() {
             return true;
         }
         if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() || self.spectrum.escape()
@@ -206,6 +206,11 @@ impl Opening<'_> {
             || std::mem::take(&mut self.inspector.magnifier.open)
             || self.ab.escape(&mut context)
             || self.lessons().close()
+    }
+
+    /// Closes the scene's words; false where none are to be seen.
+    fn close_words(&mut self) -> bool {
+        self.scene_list.words().is_some() && std::mem::take(&mut self.chrome.shown.words)
     }
 
     fn add(&mut self, scenes: Vec<SceneEntry>) {

@@ -350,6 +350,19 @@ fn scene_tells_what_to_look_at() {
         session.settle();
         click_on(&mut session, "Close the scene's words");
         assert!(!says(&mut session, words), "the button closes them");
+        key(&mut session, "I");
+        session.settle();
+        assert!(says(&mut session, words), "again");
+        key(&mut session, "Escape");
+        session.settle();
+        assert!(!says(&mut session, words), "and so does Esc");
+        let warned = session
+            .viewer
+            .chrome()
+            .messages()
+            .iter()
+            .any(|message| message.text.contains("Esc"));
+        assert!(!warned, "which does not ask whether to end the program");
     }
 }
 

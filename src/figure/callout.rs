@@ -211,13 +211,13 @@ struct Placed {
 }
 
 /// How large the words and strokes of a picture are.
-struct Scale {
+pub(super) struct Scale {
     text: f32,
     stroke: f32,
 }
 
 impl Scale {
-    fn of([width, height]: [u32; 2]) -> Self {
+    pub(super) fn of([width, height]: [u32; 2]) -> Self {
         let side = width.min(height) as f32;
         Self {
             text: (side / LINES_PER_SIDE).max(*TEXT_SIZE.start()).min(*TEXT_SIZE.end()),
@@ -226,8 +226,27 @@ impl Scale {
     }
 
     fn label(&self, inset: &Inset) -> TextBlock {
-        let text = format!("{}\u{d7}", inset.magnification);
-        TextBlock::new(&text, TextStyle::new(self.text, INK), None)
+        self.words(&format!("{}\u{d7}", inset.magnification))
+    }
+
+    fn words(&self, text: &str) -> TextBlock {
+        TextBlock::new(text, TextStyle::new(self.text, INK), None)
+    }
+
+    /// Words on the plate of an inset that is so wide: smaller where they would be wider.
+    pub(super) fn words_within(&self, text: &str, width: u32) -> TextBlock {
+        let words = self.words(text);
+        let part = (width as f32 / words.size()[0].max(1) as f32).min(1.0);
+        TextBlock::new(text, TextStyle::new(self.text * part, INK), None)
+    }
+
+    /// The line around what is magnified, and from there to its inset.
+    pub(super) fn stroke(&self) -> Stroke {
+        Stroke {
+            color: INK,
+            halo: 0xd0ff_ffff,
+            width: self.stroke,
+        }
     }
 }
 
@@ -261,11 +280,7 @@ fn draw_insets(
     let size = [picture.width(), picture.height()];
     let all = layout(specs, size, view, vacancy)?;
     let (source, scale) = (picture.clone(), Scale::of(size));
-    let stroke = Stroke {
-        color: INK,
-        halo: 0xd0ff_ffff,
-        width: scale.stroke,
-    };
+    let stroke = scale.stroke();
     for placed in &all {
         let region = outer(&placed.inset.source());
         for [from, to] in leaders(&region, &placed.rect) {
@@ -286,15 +301,19 @@ fn draw_insets(
 
 /// The grid, and its scale on a plate below.
 fn draw_placed(picture: &mut Framebuffer, source: &Framebuffer, placed: &Placed, scale: &Scale) {
-    fill(picture, &placed.rect, INK);
-    fill(picture, &inner(&placed.rect, 2), PLATE_COLOR);
-    let (grid, corner) = (placed.inset.draw(source, &[]), placed.rect);
-    copy(&grid, picture, [corner.x, corner.y]);
-    let label = scale.label(&placed.inset);
-    let top = corner.y + i64::from(grid.height());
-    label.draw(
+    let grid = placed.inset.draw(source, &[]);
+    draw_plate(picture, &grid, &placed.rect, &scale.label(&placed.inset));
+}
+
+/// A grid, and words on the rest of its place, which is below.
+pub(super) fn draw_plate(picture: &mut Framebuffer, grid: &Framebuffer, place: &PixelRect, words: &TextBlock) {
+    fill(picture, place, INK);
+    fill(picture, &inner(place, 2), PLATE_COLOR);
+    copy(grid, picture, [place.x, place.y]);
+    let top = place.y + i64::from(grid.height());
+    words.draw(
         picture,
-        [corner.x + i64::from(grid.width() / 2), top - 1],
+        [place.x + i64::from(grid.width() / 2), top - 1],
         Anchor::Center,
     );
 }
@@ -390,7 +409,7 @@ fn inset_of(spec: InsetSpec, [width, height]: [u32; 2], view: &ViewTransform) ->
 }
 
 /// The lines from corners of a region to the same corners of its inset that pass neither.
-fn leaders(region: &PixelRect, inset: &PixelRect) -> impl Iterator<Item = [DVec2; 2]> {
+pub(super) fn leaders(region: &PixelRect, inset: &PixelRect) -> impl Iterator<Item = [DVec2; 2]> {
     let corners = |rect: &PixelRect| {
         let [x0, y0, x1, y1] = [rect.x, rect.y, rect.right(), rect.bottom()].map(|side| side as f64);
         [

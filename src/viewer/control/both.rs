@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::compare::Gain;
 use crate::figure::{Anchor, Tag};
 use crate::plain;
 use crate::raster::Framebuffer;
@@ -293,7 +294,15 @@ impl<'a> Both<'a> {
             return Vec::new();
         };
         let legends = self.visualisations().into_iter();
-        legends.filter_map(|shown| shown.legend(&frame.picture.scene)).collect()
+        let legends = legends.filter_map(|shown| shown.legend(&frame.picture.scene));
+        legends.chain(self.difference_legend()).collect()
+    }
+
+    /// What the colours of a difference mean, while one is shown.
+    pub(in crate::viewer) fn difference_legend(&self) -> Option<Legend> {
+        let paint = self.ab.paint.as_ref()?;
+        let is_shown = self.ab.arrangement() == Arrangement::Difference;
+        is_shown.then(|| paint.colors.legend(paint.style.gain == Gain::Normalize))
     }
 
     /// Whether A's frame is what the window shows, pixel by pixel.

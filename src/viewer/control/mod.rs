@@ -12,6 +12,7 @@ pub(in crate::viewer) mod contexts;
 pub(in crate::viewer) mod copy;
 pub(in crate::viewer) mod drawings;
 pub(in crate::viewer) mod edges;
+pub(in crate::viewer) mod figure_of_both;
 pub(in crate::viewer) mod hand;
 pub(in crate::viewer) mod lesson;
 pub(in crate::viewer) mod numbers;

@@ -101,7 +101,7 @@ impl Hand<'_> {
             let [width, height] = layout.frame_size();
             let ([x, y], [near_x, near_y]) = (pixel, nearest);
             self.chrome.messages.done(format!(
-                "{NO_PIXEL} ({x}, {y}) in a picture of {width} x {height}: the nearest, ({near_x}, {near_y}), is pinned"
+                "{NO_PIXEL} ({x}, {y}) in a picture of {width} x {height}: pinned its nearest, ({near_x}, {near_y})"
             ));
         }
     }

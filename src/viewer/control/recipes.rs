@@ -3,15 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::figure::{Guard, InsetPlace, InsetSpec, PixelRect, Record, add_legends, add_tags, tag_unit};
-use crate::raster::Framebuffer;
+use crate::figure::{Guard, InsetPlace, InsetSpec, Record};
 use crate::render::Visualisation;
 use crate::scene::Scene;
 use crate::viewer::ab::other::Other;
 use crate::viewer::ab::sides::Filling;
 use crate::viewer::control::both::Both;
 use crate::viewer::control::pointing::Pointing;
-use crate::viewer::control::window::WindowContent;
 use crate::viewer::export::saver::{Recipe, Shot};
 use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
 use crate::viewer::frames::frame::{Frame, Picture};
@@ -176,37 +174,6 @@ impl Recipes<'_> {
         }
     }
 
-    /// What A and B share, with its tags and legends; the whole window where insets lie over it.
-    fn picture_of_both(&self) -> Framebuffer {
-        let inspector = self.pixels.inspector;
-        let zoom = i64::from(self.both.layout.zoom());
-        let insets = [inspector.inset, inspector.other_inset].map(|placed| placed.map(|placed| placed.rect));
-        let has_insets = insets.iter().any(Option::is_some);
-        let composite = self.both.composite();
-        // Insets and legends of the window are in window pixels.
-        let (mut picture, origin, zoom) = if has_insets {
-            (self.window().picture(), 0, zoom)
-        } else {
-            (composite.picture(), composite.bounds().x, 1)
-        };
-        let legends = has_insets.then(|| self.both.frames.legend_places());
-        let spared: Vec<PixelRect> = insets
-            .into_iter()
-            .flatten()
-            .chain(legends.into_iter().flatten())
-            .collect();
-        let unit = tag_unit([picture.width(), picture.height()]);
-        let bounds = composite.bounds();
-        let length = |x: i64| ((x - origin) * zoom) as f32 / unit;
-        let line = self.both.wipe_column().map(length);
-        let tags = self.both.tags([length(bounds.x), length(bounds.right())], line);
-        let taken = add_tags(&mut picture, &tags, &spared);
-        if !has_insets {
-            add_legends(&mut picture, &self.both.legends_of_picture(), &taken);
-        }
-        picture
-    }
-
     /// Protects what is shown: the scene with its textures, and a picture that is compared with it.
     pub fn guard(&self) -> Guard {
         let mut guard = Guard::default();
@@ -222,12 +189,5 @@ impl Recipes<'_> {
             guard.protect(&picture.path);
         }
         guard
-    }
-
-    fn window(&self) -> WindowContent<'_> {
-        WindowContent {
-            both: self.both,
-            inspector: self.pixels.inspector,
-        }
     }
 }

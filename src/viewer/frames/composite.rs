@@ -122,9 +122,8 @@ impl<'a> Composite<'a> {
         places.reduce(|one, other| union(&one, &other)).unwrap_or_default()
     }
 
-    /// The panes as a picture: what lies between and around them is cut off where nothing is to be seen.
-    pub(in crate::viewer) fn picture(&self) -> Framebuffer {
-        let bounds = self.bounds();
+    /// A part of the screen as a picture.
+    pub(in crate::viewer) fn picture_of(&self, bounds: &PixelRect) -> Framebuffer {
         let mut picture = Framebuffer::new(bounds.width, bounds.height);
         let columns = unsigned(bounds.x)..unsigned(bounds.right());
         let rows = picture.pixels_mut().chunks_exact_mut((bounds.width as usize).max(1));
@@ -136,7 +135,7 @@ impl<'a> Composite<'a> {
 }
 
 /// The smallest rectangle that holds both.
-fn union(one: &PixelRect, other: &PixelRect) -> PixelRect {
+pub(in crate::viewer) fn union(one: &PixelRect, other: &PixelRect) -> PixelRect {
     let (x, y) = (one.x.min(other.x), one.y.min(other.y));
     let length = |from: i64, to: i64| u32::try_from(to - from).unwrap_or(0);
     PixelRect {
@@ -199,7 +198,7 @@ mod tests {
         for at in [0, 1, 5, 9, 99] {
             let whole = pane([0, 0], [9, 4], [0, 0]);
             let composite = Composite::new(vec![(whole, Content::Wipe([&a, &b], at))]);
-            let picture = composite.picture();
+            let picture = composite.picture_of(&composite.bounds());
             for y in 0..4 {
                 for x in 0..9 {
                     let expected = if x < at { a.rgba(x, y) } else { b.rgba(x, y) };
@@ -215,11 +214,8 @@ mod tests {
         for measure in Measure::ALL {
             let paint = DifferencePaint::new(measure, 2.0);
             let whole = pane([0, 0], [70, 5], [0, 0]);
-            let picture = Composite::new(vec![(
-                whole,
-                Content::Difference([&a, &b], &paint, Refining::default()),
-            )])
-            .picture();
+            let content = Content::Difference([&a, &b], &paint, Refining::default());
+            let picture = Composite::new(vec![(whole, content)]).picture_of(&whole.area);
             let pixels = a.pixels().iter().zip(b.pixels());
             let expected: Vec<u32> = pixels.map(|(a, b)| paint.pixel(*a, *b)).collect();
             assert_eq!(picture.pixels(), expected, "{measure:?}");

@@ -1,9 +1,7 @@
 //! What a slide marks in its picture.
 
-use crate::compare::Gain;
 use crate::figure::{PinRing, PixelRect, add_legends, tag_unit};
 use crate::raster::Framebuffer;
-use crate::viewer::ab::other::Arrangement;
 use crate::viewer::inspector::{RING_ROOM, with_ring};
 use crate::viewer::state::Viewer;
 
@@ -27,16 +25,10 @@ pub(super) fn draw_marks(viewer: &Viewer, picture: &mut Framebuffer) {
     for inset in &insets {
         copy_part(&plain, picture, inset);
     }
-    if let Some(paint) = viewer
-        .ab()
-        .paint
-        .as_ref()
-        .filter(|_| viewer.ab().arrangement() == Arrangement::Difference)
-    {
+    if let Some(legend) = viewer.both().difference_legend() {
         let pins = viewer.pixels().pinned_places().into_iter();
         let spared: Vec<PixelRect> = pins.map(|pin| with_ring(&pin, RING_ROOM)).chain(insets).collect();
-        let is_normalized = paint.style.gain == Gain::Normalize;
-        add_legends(picture, &[paint.colors.legend(is_normalized)], &spared);
+        add_legends(picture, &[legend], &spared);
     }
 }
 

@@ -49,14 +49,14 @@ fn numbers_of_what_is_not_there_are_told() {
     assert!(
         says(
             &mut session,
-            "no pixel (9999, 5) in a picture of 1280 x 800: the nearest, (1279, 5), is pinned"
+            "no pixel (9999, 5) in a picture of 1280 x 800: pinned its nearest, (1279, 5)"
         ),
         "beside the picture"
     );
     session.command(Command::Inspector(InspectorCommand::Pin([99, 5])));
     session.settle();
     assert!(
-        !says(&mut session, "is pinned"),
+        !says(&mut session, "pinned its nearest"),
         "a pixel of the picture makes no words"
     );
 }

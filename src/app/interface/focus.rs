@@ -6,8 +6,8 @@
 
 use egui::accesskit::{Action, ActionRequest, TreeId};
 use egui::{
-    Color32, Context, CornerRadius, Event, Id, LayerId, Order, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo,
+    Color32, Context, CornerRadius, Event, Id, LayerId, Order, Painter, Rect, Response, Role, Sense,
+    Stroke, StrokeKind, Ui, WidgetInfo,
 };
 
 use super::look;
@@ -220,17 +220,24 @@ pub(super) fn outline(ctx: &Context) {
     let Some(place) = focused(ctx).filter(|place| place.seen.is_positive() && !ctx.text_edit_focused()) else {
         return;
     };
-    let (accent, ground) = ctx
-        .global_style()
-        .visuals
-        .dark_mode
-        .then_some(Color32::BLACK)
-        .map_or_else(
-            || (ctx.global_style().visuals.selection.bg_fill, Color32::WHITE),
-            |ground| (Color32::from_rgb(120, 178, 255), ground),
-        );
     let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, Id::unique("focus")));
     let place = place.seen.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
+    ring(&painter, place);
+}
+
+/// Outlines what arrows chose, inside its edge.
+pub(super) fn ring_inside(painter: &Painter, place: Rect) {
+    ring(painter, place.shrink(OUTLINE));
+}
+
+/// Two lines that are to be seen on any ground.
+fn ring(painter: &Painter, place: Rect) {
+    let style = painter.ctx().global_style();
+    let (accent, ground) = if style.visuals.dark_mode {
+        (Color32::from_rgb(120, 178, 255), Color32::BLACK)
+    } else {
+        (style.visuals.selection.bg_fill, Color32::WHITE)
+    };
     for (width, color) in [(2.0 * OUTLINE, ground), (OUTLINE, accent)] {
         painter.rect_stroke(
             place,

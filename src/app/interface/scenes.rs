@@ -9,6 +9,7 @@ use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Ro
 use egui::{TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::controls::{command_button, heading, tip};
+use super::focus;
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, Dialog, SceneCommand, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
@@ -327,13 +328,16 @@ fn paint(ui: &Ui, viewer: &Viewer, index: usize, response: &egui::Response, pict
     }
     let line = if current {
         egui::Stroke::new(2.0, visuals.selection.bg_fill)
-    } else if response.hovered() || *chosen == Some(index) {
+    } else if response.hovered() {
         egui::Stroke::new(1.0, visuals.widgets.hovered.fg_stroke.color)
     } else {
         visuals.widgets.noninteractive.bg_stroke
     };
     ui.painter()
         .rect_stroke(frame, CornerRadius::same(4), line, StrokeKind::Inside);
+    if *chosen == Some(index) {
+        focus::ring_inside(ui.painter(), frame);
+    }
     let color = if current {
         visuals.strong_text_color()
     } else {

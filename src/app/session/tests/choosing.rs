@@ -7,7 +7,7 @@ use glam::dvec2;
 use super::hands::{click, click_on, key, nodes, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Dialog, ExportCommand, LessonCommand, LessonSource, Other, Toggle, ViewerOptions};
+use crate::viewer::{Dialog, ExportCommand, LessonCommand, LessonSource, Other, Theme, Toggle, ViewerOptions};
 
 /// Two clicks at one place, as fast as a hand makes them.
 fn double_click(session: &mut Session, name: &str) {
@@ -319,5 +319,27 @@ fn pattern_by_itself_follows_the_keys_and_closes() {
         key(&mut session, "Escape");
         session.settle();
         assert_eq!(session.viewer().chrome().dialog(), None, "closed in {window:?}");
+    }
+}
+
+#[test]
+fn scene_that_arrows_choose_is_to_be_seen() {
+    for theme in [Theme::Dark, Theme::Light] {
+        let mut session = session(Vec::new(), [1280, 800]);
+        session.command(Command::Window(WindowCommand::SetTheme(theme)));
+        key(&mut session, "g");
+        session.settle();
+        let before = session.picture();
+        key(&mut session, "Right");
+        session.settle();
+        let after = session.picture();
+        let distance = |(a, b): (&u32, &u32)| {
+            let channels = a.to_be_bytes().into_iter().zip(b.to_be_bytes());
+            channels.map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+        };
+        let pixels = before.pixels().iter().zip(after.pixels());
+        let changed = pixels.filter(|pair| distance(*pair) > 60).count();
+        // Both rings are about as long as four widths of a picture, and the one that was there goes.
+        assert!(changed > 1500, "{theme:?}: {changed} pixels");
     }
 }

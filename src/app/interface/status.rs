@@ -5,7 +5,9 @@ use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKi
 use super::controls::tip;
 use super::menu;
 use crate::viewer::picture::{About, changed_words};
-use crate::viewer::{Command, CommandSpec, InspectorCommand, SceneEntry, Status, Toggle, Viewer, WindowCommand};
+use crate::viewer::{
+    Arrangement, Command, CommandSpec, InspectorCommand, SceneEntry, Settings, Status, Toggle, Viewer, WindowCommand,
+};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
@@ -154,7 +156,6 @@ fn scaled_by_desktop(ui: &mut Ui, percent: u32) {
 /// Size, scale and settings in few words, as far as there is room.
 fn picture(ui: &mut Ui, viewer: &Viewer) {
     let [width, height] = viewer.both().layout().frame_size();
-    let render = &viewer.settings().render;
     if let Some(text) = viewer.frames().preview_text() {
         ui.label(egui::RichText::new(text).size(11.0).color(ui.visuals().warn_fg_color));
         ui.add_space(4.0);
@@ -166,17 +167,12 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
     if let Some(numbers) = viewer.both().view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }
-    // Areas have no samples.
-    if !render.covers_areas() {
-        words.push(format!("{}×", render.sample_rate.samples()));
+    if fills_window_with_b(viewer) {
+        words.push("B".to_owned());
     }
-    words.extend(changed_words(viewer.settings(), About::Samples));
-    words.push(format!(
-        "{} / {}",
-        render.pixel_sampling.name(),
-        render.level_sampling.name()
-    ));
-    words.extend(changed_words(viewer.settings(), About::Textures));
+    if let Some(settings) = settings_in_window(viewer) {
+        words.extend(settings_words(&settings));
+    }
     for word in words {
         let font = FontId::proportional(11.0);
         let color = ui.visuals().weak_text_color();
@@ -187,6 +183,41 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         ui.label(galley);
         ui.add_space(4.0);
     }
+}
+
+/// How the picture in the window is sampled.
+fn settings_words(settings: &Settings) -> Vec<String> {
+    let render = &settings.render;
+    let mut words = Vec::new();
+    // Areas have no samples.
+    if !render.covers_areas() {
+        words.push(format!("{}×", render.sample_rate.samples()));
+    }
+    words.extend(changed_words(settings, About::Samples));
+    words.push(format!(
+        "{} / {}",
+        render.pixel_sampling.name(),
+        render.level_sampling.name()
+    ));
+    words.extend(changed_words(settings, About::Textures));
+    words
+}
+
+/// Whether B is what the window shows, and nothing of A.
+fn fills_window_with_b(viewer: &Viewer) -> bool {
+    let ab = viewer.ab();
+    let is_whole = matches!(ab.arrangement(), Arrangement::Alone | Arrangement::Flip);
+    is_whole && ab.other().is_some() && ab.shows_b()
+}
+
+/// The settings of the picture that fills the window; those of A where both share it, and none of a picture from outside.
+fn settings_in_window(viewer: &Viewer) -> Option<Settings> {
+    let own = viewer.settings();
+    if !fills_window_with_b(viewer) {
+        return Some(*own);
+    }
+    let render = viewer.ab().other_settings(own)?;
+    Some(Settings { render, ..*own })
 }
 
 fn numbers() -> FontId {

@@ -487,3 +487,21 @@ fn words_over_the_picture_are_about_what_it_shows() {
         "no settings of A over the picture of B: {labels:?}"
     );
 }
+
+#[test]
+fn status_line_tells_of_the_picture_that_is_seen() {
+    let mut session = session(Vec::new(), [1920, 1080]);
+    for name in ["r", "=", "="] {
+        key(&mut session, name);
+    }
+    session.settle();
+    let told = |session: &mut Session| {
+        let nodes = nodes(session);
+        ["B", "1\u{d7}", "9\u{d7}"].map(|word| nodes.iter().any(|node| node.value() == Some(word)))
+    };
+    assert_eq!(told(&mut session), [false, false, true], "A fills the window");
+    session.command(Command::Ab(AbCommand::FlipByHand));
+    session.settle();
+    assert!(session.viewer.ab().shows_b());
+    assert_eq!(told(&mut session), [true, true, false], "B does");
+}

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::{Color32, FontId, Galley, Ui, Vec2, pos2, vec2};
 
 use super::places::points;
+use crate::inspect::counted;
 use crate::viewer::{Status, Viewer};
 
 /// The inset's ground is light in every theme.
@@ -93,9 +94,18 @@ fn words(ui: &Ui, viewer: &Viewer, room: Vec2) -> Vec<Arc<Galley>> {
     let mut lines = lines;
     lines.truncate(shown);
     if others > 0 && (shown > 0 || room.y >= line("1".to_owned()).size().y) {
-        lines.push(line(format!("and {others} more")));
+        // They are not colours, which the line above counts.
+        lines.push(line(rest(shown, others)));
     }
     lines
+}
+
+/// What is said of hits that have no line of their own.
+fn rest(shown: usize, others: usize) -> String {
+    match shown {
+        0 => format!("{} hit", counted(others, "thing")),
+        _ => format!("and {others} more hit"),
+    }
 }
 
 /// How many lines of these heights are shown, where a line of height `last` tells of the others if there is not room for all.
@@ -110,6 +120,13 @@ fn lines_that_fit(heights: &[f32], room: f32, last: f32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn hits_without_a_line_are_no_colours() {
+        // They stand below the number of colours.
+        assert_eq!(rest(0, 2), "2 things hit");
+        assert_eq!(rest(3, 1), "and 1 more hit");
+    }
 
     #[test]
     fn lines_that_do_not_fit_are_counted_in_one_that_does() {

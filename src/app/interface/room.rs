@@ -55,6 +55,14 @@ impl Interface {
         explanation::fits(self.beside_lesson(viewer, window) - panel)
     }
 
+    /// Whether the numbers of a comparison, and what the colours of a difference mean, have room in a window of that many points in
+    /// width: beside the side panel, or in the explanation of a pixel.
+    pub(in crate::app) fn has_room_to_compare(&self, viewer: &Viewer, window: f32) -> bool {
+        let beside = self.beside_lesson(viewer, window) - self.widths.of(SizedPanel::Side, window);
+        let explains = viewer.pixels().has_explanation_open() && self.has_room_to_explain(viewer, window);
+        explains || beside >= self.widths.of(SizedPanel::Comparison, window) + LEAST_PICTURE
+    }
+
     /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
     pub(in crate::app) fn panel_leaves_pin(&self, viewer: &Viewer, window: f32, pixels_per_point: f32) -> bool {
         let left = window - self.widths.of(SizedPanel::Side, window) - pin::ROOM;

@@ -23,17 +23,14 @@ use crate::inspect::counted;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::{
-    Command, Effect, InspectorCommand, LessonCommand, MessageKind, Modifiers, PixelRect, PointerButton, PointerCommand,
-    SceneCommand, SheetCommand, Viewer, WindowCommand,
+    AbCommand, Arrangement, Command, Effect, InspectorCommand, LessonCommand, MessageKind, Modifiers, PixelRect,
+    PointerButton, PointerCommand, SceneCommand, SheetCommand, Viewer, WindowCommand,
 };
 use damage::Damage;
-use room::{PanelRoom, Wanted};
+use room::{Asks, PanelRoom, Wanted};
 
 /// Passes of the panels for one change: a command of a panel changes what the panels show.
 const MAX_PASSES: u32 = 4;
-/// The least window in points that panels make sense in: a larger interface stops there. Lists of the menu, three of which may
-/// be open, lie beside each other in it.
-const LEAST_WINDOW: [f32; 2] = [520.0, 390.0];
 /// Surfaces have two or three buffers; one that was shown longer ago is written whole.
 const LONGEST_AGE: usize = 3;
 
@@ -282,10 +279,7 @@ impl Session {
 
     /// Device pixels per point: as large as the user wants panels, as far as they fit.
     fn scale(&self) -> f32 {
-        let [width, height] = self.viewer.chrome().window_size().map(|side| side as f32);
-        let largest = (width / LEAST_WINDOW[0]).min(height / LEAST_WINDOW[1]);
-        let wanted = self.native_scale * self.viewer.chrome().interface_factor();
-        wanted.min(largest.max(self.native_scale))
+        self.wanted_scale().min(self.largest_scale())
     }
 
     /// Runs a command and carries out its effects.
@@ -293,27 +287,13 @@ impl Session {
         let (wanted, command) = self.wanted(command);
         let fold = |viewer: &Viewer| (viewer.lesson().is_some(), viewer.chrome().interface_factor());
         let before = fold(&self.viewer);
-        let asks_by_hand = matches!(
-            command,
-            Command::Inspector(InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge)
-                | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
-        );
-        let in_lesson = matches!(
-            command,
-            Command::Lesson(LessonCommand::Open(_) | LessonCommand::Step(_))
-                | Command::Scenes(SceneCommand::Next | SceneCommand::Previous | SceneCommand::Open(_))
-        );
+        let asks = asked_for(&command);
         self.apply(command);
-        if in_lesson {
-            self.tell_no_lesson();
-        }
         if before != fold(&self.viewer) {
             self.fold_panel();
         }
         self.share_room(wanted);
-        if asks_by_hand {
-            self.tell_no_room(wanted);
-        }
+        self.tell_missing_room(asks, wanted);
     }
 
     fn apply(&mut self, command: Command) {
@@ -453,6 +433,23 @@ impl Session {
             ..RawInput::default()
         };
         self.turn(input)
+    }
+}
+
+/// What a command asks for by hand that may have no room.
+fn asked_for(command: &Command) -> Asks {
+    match command {
+        Command::Inspector(
+            InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge | InspectorCommand::Explanation(_),
+        )
+        | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary)) => Asks::Why,
+        Command::Lesson(LessonCommand::Open(_) | LessonCommand::Step(_))
+        | Command::Scenes(SceneCommand::Next | SceneCommand::Previous | SceneCommand::Open(_)) => Asks::Lesson,
+        Command::Window(WindowCommand::StepInterfaceScale { .. } | WindowCommand::SetInterfaceScale(_)) => Asks::Size,
+        Command::Ab(
+            AbCommand::Arrange(Arrangement::Difference) | AbCommand::ToggleArrangement(Arrangement::Difference),
+        ) => Asks::Difference,
+        _ => Asks::Nothing,
     }
 }
 

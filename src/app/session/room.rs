@@ -2,7 +2,7 @@
 
 use super::Session;
 use crate::app::interface::Interface;
-use crate::viewer::{Command, MessageKind, NO_ROOM, PointerButton, Toggle};
+use crate::viewer::{Arrangement, Command, MessageKind, NO_ROOM, PointerButton, Toggle};
 use crate::viewer::{InspectorCommand, PointerCommand, WindowCommand};
 
 /// What the session does to the side panel by itself.
@@ -20,8 +20,14 @@ pub(super) struct PanelRoom {
     hid_explanation: bool,
 }
 
+/// The least window in points that panels make sense in: a larger interface stops there. Lists of the menu, three of which may
+/// be open, lie beside each other in it.
+const LEAST_WINDOW: [f32; 2] = [520.0, 390.0];
 /// What is said where the text of a lesson has no room.
 const NO_LESSON: &str = "no room here for the text of the lesson: make the window wider";
+
+/// What is said where the panel of a comparison has no room.
+const NO_NUMBERS: &str = "no room here for numbers and colours of the difference: make the window wider";
 
 /// What a command asks to be seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +35,20 @@ pub(super) enum Wanted {
     Panel,
     Explanation,
     Neither,
+}
+
+/// What a command asks for by hand that may have no room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asks {
+    /// Why a pixel has its colour.
+    Why,
+    /// The text of a lesson.
+    Lesson,
+    /// A size of the interface.
+    Size,
+    /// A difference with its numbers.
+    Difference,
+    Nothing,
 }
 
 impl Default for PanelRoom {
@@ -134,8 +154,31 @@ impl Session {
         }
     }
 
+    /// Device pixels per point as the user wants them.
+    pub(super) fn wanted_scale(&self) -> f32 {
+        self.native_scale * self.viewer.chrome().interface_factor()
+    }
+
+    /// As many as the window has room for.
+    pub(super) fn largest_scale(&self) -> f32 {
+        let [width, height] = self.viewer.chrome().window_size().map(|side| side as f32);
+        let largest = (width / LEAST_WINDOW[0]).min(height / LEAST_WINDOW[1]);
+        largest.max(self.native_scale)
+    }
+
+    /// Tells whoever asked for something that there is no room for it.
+    pub(super) fn tell_missing_room(&mut self, asks: Asks, wanted: Wanted) {
+        match asks {
+            Asks::Why => self.tell_no_room(wanted),
+            Asks::Lesson => self.tell_no_lesson(),
+            Asks::Size => self.tell_largest(),
+            Asks::Difference => self.tell_no_numbers(),
+            Asks::Nothing => {}
+        }
+    }
+
     /// Tells whoever asked why a pixel has its colour that there is no room for the answer.
-    pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
+    fn tell_no_room(&mut self, wanted: Wanted) {
         let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
         let asks = wanted == Wanted::Explanation && self.viewer.pixels().has_explanation_open();
         if asks && !self.interface.has_room_to_explain(&self.viewer, width) {
@@ -143,8 +186,31 @@ impl Session {
         }
     }
 
+    /// Tells whoever looks at a difference beside the open panel that there is no room for its numbers and colours.
+    fn tell_no_numbers(&mut self) {
+        let (viewer, width) = (
+            &self.viewer,
+            self.viewer.chrome().window_size()[0] as f32 / self.scale(),
+        );
+        let is_seen = viewer.ab().other().is_some() && viewer.ab().arrangement() == Arrangement::Difference;
+        let has_panel = viewer.chrome().panel() && !viewer.chrome().everything_hidden();
+        if is_seen && has_panel && !self.interface.has_room_to_compare(viewer, width) {
+            self.viewer.tell(MessageKind::Done, NO_NUMBERS.to_owned());
+        }
+    }
+
+    /// Tells whoever wants a larger interface than the window has room for how large it is.
+    fn tell_largest(&mut self) {
+        if self.wanted_scale() > self.largest_scale() {
+            let [wanted, is] =
+                [self.wanted_scale(), self.largest_scale()].map(|scale| 100.0 * scale / self.native_scale);
+            let words = format!("interface at {is:.0} %, not {wanted:.0} %: this window has room for no more");
+            self.viewer.tell(MessageKind::Done, words);
+        }
+    }
+
     /// Tells whoever goes on in a lesson that there is no room for its text.
-    pub(super) fn tell_no_lesson(&mut self) {
+    fn tell_no_lesson(&mut self) {
         let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
         if self.viewer.lesson().is_some() && !self.interface.has_room_for_lesson(&self.viewer, width) {
             self.viewer.tell(MessageKind::Done, NO_LESSON.to_owned());

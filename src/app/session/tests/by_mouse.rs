@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use egui::{pos2, vec2};
 use glam::{DVec2, dvec2};
 
-use super::hands::{click_on, comparing, place_of, right_click, says, session};
+use super::hands::{click_on, comparing, key, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Arrangement, InspectorCommand, Toggle, ViewCommand, WindowCommand};
@@ -149,6 +149,10 @@ fn missing_room_for_an_explanation_is_told() {
     right_click(&mut session, [300.0, 200.0]);
     assert!(session.viewer.pixels().pinned().is_some(), "pinned");
     assert!(says(&mut session, "make the window wider"), "why there is no more");
+    let mut by_key = hands::session(Vec::new(), [600, 400]);
+    key(&mut by_key, "e");
+    by_key.settle();
+    assert!(says(&mut by_key, "make the window wider"), "by a key, too");
     session.resize([1280, 800]);
     session.settle();
     assert!(

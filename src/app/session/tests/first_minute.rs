@@ -216,6 +216,15 @@ fn interface_scale_leaves_the_picture() {
         (scale - 800.0 / 520.0).abs() < 1e-6,
         "{scale}: room for three lists of the menu"
     );
+    let told = |session: &Session| {
+        let messages = session.viewer().chrome().messages().iter();
+        messages
+            .filter(|message| message.text.contains("room for no more"))
+            .count()
+    };
+    assert_eq!(told(&session), 0, "nobody asked for more than there was room for");
+    key(&mut session, "Ctrl+-");
+    assert_eq!(told(&session), 1, "250 percent look as 300 do, and that is said");
 }
 
 /// A folder with scenes, one of them in a folder inside.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::accesskit::Node;
 
-use super::hands::{nodes, place_of, session};
+use super::hands::{key, nodes, place_of, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Axis, BoardCommand, Dialog, ProfileCommand, SpectrumCommand, Toggle, WindowCommand};
@@ -63,5 +63,21 @@ fn buttons_of_narrow_dialogs_lie_beside_each_other() {
                 assert!(apart, "{one:?} over {other:?} in {window:?}");
             }
         }
+    }
+}
+
+#[test]
+fn difference_without_room_for_its_numbers_says_so() {
+    for (window, is_told) in [([640, 400], true), ([1280, 800], false)] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        for name in ["r", "=", "d"] {
+            key(&mut session, name);
+        }
+        let messages = session.viewer.chrome().messages();
+        let told = messages
+            .iter()
+            .any(|message| message.text.contains("no room here for numbers"));
+        assert_eq!(told, is_told, "{window:?}: {messages:?}");
     }
 }

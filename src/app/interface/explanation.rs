@@ -1,14 +1,14 @@
 //! Why the pinned pixel has its colour: a tree beside the picture. What the pointer is over is outlined in the scene.
 
-use egui::{Button, CollapsingHeader, Color32, Pos2, Rect, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
+use egui::{Button, CollapsingHeader, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::controls::{command_button, tip};
 use super::floating::shows_other_than_set;
-use super::hovered::{Hovered, OUTLINE};
+use super::hovered::Hovered;
 use super::look::opaque;
 use super::look::{self, CONTROL};
 use super::report::{bring_into_sight, lines, section};
-use super::{compare, scrubber, texture_view};
+use super::{compare, samples, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint};
 use crate::render::Visualisation;
 use crate::viewer::{Arrangement, Command, ExportCommand, InspectorCommand, Toggle, Viewer};
@@ -19,8 +19,6 @@ pub(super) const WIDTH: f32 = 312.0;
 pub(super) const LEAST_WIDTH: f32 = 300.0;
 /// What of the picture must stay free beside the panel, in points.
 const LEAST_REST: f32 = 300.0;
-/// Side of the magnified pixel with its samples, in points.
-const PIXEL_SIDE: f32 = 132.0;
 /// What the panel remembers.
 #[derive(Debug, Default)]
 pub(super) struct ExplanationPanel {
@@ -130,7 +128,7 @@ impl ExplanationPanel {
             format!("The {count} samples")
         };
         section(ui, "samples", &heading, true, |ui| {
-            self.samples(ui, explanation, hovered);
+            hovered.sample = samples::show(ui, explanation, &mut self.chosen);
         });
         // The pixel is no mean of its own samples where it takes others too.
         if count > 1 && explanation.resolve.around.is_none() {
@@ -166,39 +164,6 @@ impl ExplanationPanel {
                 compare::details(ui, viewer, commands);
             });
         }
-    }
-
-    /// The pixel with its samples as dots in their own colours; a click chooses the one that is told in full.
-    fn samples(&mut self, ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
-        ui.horizontal_top(|ui| {
-            let (rect, response) = ui.allocate_exact_size(vec2(PIXEL_SIDE, PIXEL_SIDE), Sense::click());
-            let place = |at: [f64; 2]| at_part(rect, at);
-            let nearest = response.hover_pos().and_then(|pointer| {
-                let distance = |i: usize| place(explanation.samples[i].position).distance_sq(pointer);
-                (0..explanation.samples.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
-            });
-            if response.clicked() {
-                self.chosen = nearest.filter(|nearest| self.chosen != Some(*nearest));
-            }
-            hovered.sample = nearest;
-            let told = nearest.or(self.chosen);
-            draw_samples(ui, explanation, rect, told);
-            let words = match told {
-                Some(sample) => {
-                    let mut words = vec![explanation.sample_title(sample)];
-                    words.extend(explanation.short_sample_lines(sample));
-                    words
-                }
-                None if explanation.exact => vec!["It holds one colour, and has no samples.".to_owned()],
-                None => vec!["Point at a sample to light what it shows, click to choose it.".to_owned()],
-            };
-            // No words are higher than the pixel: what stands below stays under the pointer.
-            ui.vertical(|ui| {
-                ui.set_height(PIXEL_SIDE);
-                ui.set_clip_rect(ui.clip_rect().intersect(ui.max_rect()));
-                lines(ui, &words);
-            });
-        });
     }
 
     fn paint(
@@ -347,38 +312,6 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
         });
     });
     ui.add_space(2.0);
-}
-
-fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usize>) {
-    // Off the grid samples may lie at the border, and their discs reach over it.
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    painter.rect_filled(rect, 0.0, opaque(explanation.color));
-    let side = (explanation.samples.len() as f32).sqrt().max(1.0);
-    let radius = (PIXEL_SIDE / side * 0.32).clamp(2.0, 14.0);
-    for (number, sample) in explanation.samples.iter().enumerate() {
-        let at = at_part(rect, sample.position);
-        painter.circle_filled(at, radius, opaque(sample.bytes));
-        let (width, color) = if told == Some(number) {
-            (2.5, OUTLINE[1].1)
-        } else {
-            (
-                1.0,
-                Color32::from_gray(if crate::figure::is_dark(sample.bytes) { 200 } else { 60 }),
-            )
-        };
-        painter.circle_stroke(at, radius, Stroke::new(width, color));
-    }
-    ui.painter().rect_stroke(
-        rect,
-        0.0,
-        Stroke::new(1.0, ui.visuals().weak_text_color()),
-        egui::StrokeKind::Outside,
-    );
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
-fn at_part(rect: Rect, [x, y]: [f64; 2]) -> Pos2 {
-    rect.min + vec2(rect.width() * x as f32, rect.height() * y as f32)
 }
 
 /// Whether there is room for the panel beside what must stay free of the picture, in `width` points.

@@ -6,8 +6,8 @@
 
 use egui::accesskit::{Action, ActionRequest, TreeId};
 use egui::{
-    Color32, Context, CornerRadius, Event, Id, LayerId, Order, Painter, Rect, Response, Role, Sense,
-    Stroke, StrokeKind, Ui, WidgetInfo,
+    Color32, Context, CornerRadius, Event, EventFilter, Id, LayerId, Order, Painter, Rect, Response, Role, Sense,
+    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::look;
@@ -186,6 +186,30 @@ pub(super) fn takes(ctx: &Context, press: &KeyPress) -> bool {
         Some(Key::Tab | Key::Space | Key::Enter | Key::Escape | Key::Left | Key::Right | Key::Up | Key::Down)
     );
     is_plain && steers && focused(ctx).is_some()
+}
+
+/// The steps of the arrows that were pressed while this control has the focus: they are its own then, and lead to no neighbour.
+pub(super) fn arrows_in(ui: &Ui, control: &Response) -> Vec<Vec2> {
+    if !control.has_focus() {
+        return Vec::new();
+    }
+    let arrows = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(control.id, arrows));
+    let keys = [
+        (egui::Key::ArrowLeft, vec2(-1.0, 0.0)),
+        (egui::Key::ArrowRight, vec2(1.0, 0.0)),
+        (egui::Key::ArrowUp, vec2(0.0, -1.0)),
+        (egui::Key::ArrowDown, vec2(0.0, 1.0)),
+    ];
+    let pressed = |(key, step)| {
+        let times = ui.input_mut(|input| input.count_and_consume_key(egui::Modifiers::NONE, key));
+        std::iter::repeat_n(step, times)
+    };
+    keys.into_iter().flat_map(pressed).collect()
 }
 
 /// What scrolls to the control that a key gave the focus since the last pass, where an area that scrolls hides a part of it: the

@@ -41,6 +41,7 @@ mod profile_line;
 mod profile_plot;
 mod report;
 mod room;
+mod samples;
 mod sampling;
 mod scenes;
 mod scrubber;

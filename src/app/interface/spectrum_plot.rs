@@ -7,6 +7,7 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
+use super::focus;
 use super::scenes::image_of;
 use crate::compare::SpectrumReading;
 use crate::viewer::SpectrumFound;
@@ -15,6 +16,8 @@ use crate::viewer::SpectrumFound;
 const AXES: Vec2 = vec2(28.0, 15.0);
 /// How far around the pointer the strongest wave counts, in points.
 const NEAR: f32 = 3.0;
+/// How far an arrow moves, in points.
+const STEP: f32 = 4.0;
 /// The line of the box, and what tells two places to belong together.
 const BOX: Color32 = Color32::from_rgb(255, 255, 255);
 const LINK: Color32 = Color32::from_rgb(255, 214, 10);
@@ -22,6 +25,8 @@ const LINK: Color32 = Color32::from_rgb(255, 214, 10);
 /// The picture of a spectrum, of exactly the size in which it is shown.
 #[derive(Default)]
 pub(super) struct SpectrumPlot {
+    /// The frequency that arrows moved to, while the plot has the focus.
+    chosen: Option<[f64; 2]>,
     drawn: Option<(Arc<SpectrumFound>, u32, TextureHandle)>,
 }
 
@@ -39,7 +44,7 @@ struct Axes {
 }
 
 impl SpectrumPlot {
-    /// Draws the spectrum `width` points wide; the wave that the pointer is over.
+    /// Draws the spectrum `width` points wide; the wave that the pointer is over, or that arrows moved to.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -51,7 +56,8 @@ impl SpectrumPlot {
         let side = pixels((width - AXES.x) * scale);
         // Whole device pixels, so that none of the picture's is left out.
         let square = Vec2::splat(side as f32 / scale);
-        let (response, painter) = ui.allocate_painter(vec2(width, square.y + AXES.y + 4.0), Sense::hover());
+        let (response, painter) =
+            ui.allocate_painter(vec2(width, square.y + AXES.y + 4.0), Sense::focusable_noninteractive());
         let corner = response.rect.min + vec2(AXES.x, 4.0);
         let corner = pos2((corner.x * scale).round(), (corner.y * scale).round()) / scale;
         let axes = Axes {
@@ -76,9 +82,15 @@ impl SpectrumPlot {
                 inside.add(Shape::line(points.clone(), Stroke::new(width, color)));
             }
         }
-        let reading = response.hover_pos().and_then(|at| {
+        for step in focus::arrows_in(ui, &response) {
+            let from = axes.place(self.chosen.unwrap_or_default());
+            self.chosen = axes.frequency(from + STEP * step).or(self.chosen);
+        }
+        self.chosen = self.chosen.filter(|_| response.has_focus());
+        let pointed = response.hover_pos().and_then(|at| axes.frequency(at));
+        let reading = pointed.or(self.chosen).and_then(|frequency| {
             let near = f64::from(NEAR / axes.rect.width()) * 2.0 * axes.reach;
-            found.analysis.strongest_near(axes.frequency(at)?, near)
+            found.analysis.strongest_near(frequency, near)
         });
         if let Some(reading) = &reading {
             axes.mark(ui, reading, found);

@@ -6,9 +6,11 @@
     reason = "inside the window"
 )]
 
+use std::path::PathBuf;
+
 use glam::dvec2;
 
-use super::hands::{click_on, key, nodes, right_click, session};
+use super::hands::{click_on, key, nodes, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{
@@ -385,4 +387,75 @@ fn keys_press_what_tab_reached_in_a_dialog() {
         session.ctx().memory(|memory| memory.focused().is_none()),
         "no panel has the focus"
     );
+}
+
+/// Goes on with Tab until this control has the keyboard.
+fn tab_to(session: &mut Session, name: &str) {
+    for _ in 0..60 {
+        if focused(session).as_deref() == Some(name) {
+            session.settle();
+            return;
+        }
+        key(session, "Tab");
+    }
+    panic!("Tab never reached {name}");
+}
+
+#[test]
+fn arrows_choose_a_sample() {
+    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg");
+    let mut session = session(vec![scene], [1280, 800]);
+    session.command(Command::set("sample-rate", "16").expect("a rate"));
+    session.settle();
+    right_click(&mut session, [700.0, 300.0]);
+    key(&mut session, "F6");
+    session.pointer(None);
+    tab_to(&mut session, "Samples of the pixel");
+    let pin = session.viewer.pixels().pinned();
+    for (name, sample) in [
+        ("Right", "sample 6 at"),
+        ("Right", "sample 7 at"),
+        ("Down", "sample 11 at"),
+        ("Left", "sample 10 at"),
+        ("Space", "sample 10 at"),
+    ] {
+        key(&mut session, name);
+        session.settle();
+        assert!(says(&mut session, sample), "{name} leads to {sample}");
+    }
+    assert_eq!(
+        focused(&mut session).as_deref(),
+        Some("Samples of the pixel"),
+        "still there"
+    );
+    key(&mut session, "Escape");
+    assert!(
+        session.ctx().memory(|memory| memory.focused().is_none()),
+        "Esc leaves it"
+    );
+    assert_eq!(session.viewer.pixels().pinned(), pin, "nothing else moved");
+}
+
+#[test]
+fn arrows_move_a_frequency() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Spectrum(SpectrumCommand::Show(Toggle::On)));
+    session.settle();
+    for _ in 0..3 {
+        key(&mut session, "F6");
+    }
+    tab_to(&mut session, "Strength of each frequency");
+    let invitation = "Point at a frequency";
+    assert!(says(&mut session, invitation), "none is chosen");
+    key(&mut session, "Up");
+    session.settle();
+    assert!(!says(&mut session, invitation), "one is told");
+    assert_eq!(
+        focused(&mut session).as_deref(),
+        Some("Strength of each frequency"),
+        "the arrow is the plot's"
+    );
+    key(&mut session, "Tab");
+    session.settle();
+    assert!(says(&mut session, invitation), "until Tab leads on");
 }

@@ -39,6 +39,8 @@ const ROW: f32 = 21.0;
 const NAMES: f32 = 60.0;
 /// Width of the column of shades, in points.
 const COUNTS: f32 = 46.0;
+/// The same where columns are narrow: then the heads need it.
+const NARROWER: [f32; 2] = [52.0, 38.0];
 /// Width of the other columns from which on their numbers have units beside them, in points; else the heads name the units.
 const WITH_UNITS: f32 = 58.0;
 /// The heads of narrow columns.
@@ -196,9 +198,12 @@ fn channels(ui: &mut Ui, current: ProfileChannel, commands: &mut Vec<Command>) {
 
 /// A row of numbers for each curve, and what is to be said of them.
 fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
-    let width = ((ui.available_width() - NAMES - COUNTS) / (COLUMNS.len() - 1) as f32).floor();
-    let widths = [COUNTS, width, width, width];
-    let is_narrow = width < WITH_UNITS;
+    let columns = |[names, counts]: [f32; 2]| {
+        let width = ((ui.available_width() - names - counts) / (COLUMNS.len() - 1) as f32).floor();
+        [names, counts, width, width, width]
+    };
+    let is_narrow = columns([NAMES, COUNTS])[2] < WITH_UNITS;
+    let widths = columns(if is_narrow { NARROWER } else { [NAMES, COUNTS] });
     let heads = if is_narrow {
         NARROW
     } else {
@@ -237,8 +242,8 @@ fn measure(value: f64, digits: usize, unit: &str) -> String {
     format!("{value:.digits$}{unit}")
 }
 
-/// A row of the table: whose it is, and its cells, each with its column's width and tip.
-fn row(ui: &mut Ui, widths: [f32; 4], first: impl FnOnce(&mut Ui), cells: [RichText; 4]) {
+/// A row of the table: whose it is, and its cells, each with its width and its column's tip.
+fn row(ui: &mut Ui, [names, widths @ ..]: [f32; 5], first: impl FnOnce(&mut Ui), cells: [RichText; 4]) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let mut cell = |width: f32, layout: Layout, contents: &mut dyn FnMut(&mut Ui)| {
@@ -248,7 +253,7 @@ fn row(ui: &mut Ui, widths: [f32; 4], first: impl FnOnce(&mut Ui), cells: [RichT
             });
         };
         let mut first = Some(first);
-        cell(NAMES, Layout::left_to_right(Align::Center), &mut |ui| {
+        cell(names, Layout::left_to_right(Align::Center), &mut |ui| {
             if let Some(first) = first.take() {
                 first(ui);
             }

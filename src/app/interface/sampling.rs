@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align, DragValue, Layout, RichText, Ui, vec2};
+use egui::{Align, Color32, DragValue, Layout, RichText, Ui, vec2};
 
 use super::controls::{Offered, choice, choice_of, command_button, drop_down, finite, gave_up, row, tip};
 use super::look::CONTROL;
@@ -81,12 +81,19 @@ pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &V
 
 /// A control, pale where it makes no difference.
 fn weakened(ui: &mut Ui, shown: ShownSetting, control: impl FnOnce(&mut Ui)) {
-    let opacity = ui.opacity();
+    let (opacity, letters) = (ui.opacity(), ui.visuals().selection.stroke.color);
     if shown.idle.is_some() {
         ui.multiply_opacity(PALE);
+        ui.visuals_mut().selection.stroke.color = pale_letters(ui.visuals().dark_mode, letters);
     }
     control(ui);
     ui.set_opacity(opacity);
+    ui.visuals_mut().selection.stroke.color = letters;
+}
+
+/// The letters of a chosen value that is pale: over a light panel its ground becomes light, too, and white ones could not be read.
+fn pale_letters(is_dark: bool, letters: Color32) -> Color32 {
+    if is_dark { letters } else { Color32::BLACK }
 }
 
 /// A setting, and how the panel shows it.
@@ -296,7 +303,42 @@ fn dialect_in_force(viewer: &Viewer) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use super::super::look;
     use super::*;
+    use crate::viewer::Theme;
+
+    /// The luminance of a colour (WCAG 2.2).
+    fn luminance(color: Color32) -> f32 {
+        let linear = |byte: u8| match f32::from(byte) / 255.0 {
+            part if part <= 0.04045 => part / 12.92,
+            part => ((part + 0.055) / 1.055).powf(2.4),
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    #[test]
+    fn pale_values_can_be_read() {
+        for theme in [Theme::Dark, Theme::Light] {
+            for presenter in [false, true] {
+                let ctx = egui::Context::default();
+                look::set_look(&ctx, (theme, presenter));
+                let style = ctx.style_of(match theme {
+                    Theme::Dark => egui::Theme::Dark,
+                    Theme::Light => egui::Theme::Light,
+                });
+                let visuals = &style.visuals;
+                let letters = pale_letters(visuals.dark_mode, visuals.selection.stroke.color);
+                let ground = visuals.panel_fill.lerp_to_gamma(visuals.selection.bg_fill, PALE);
+                let letters = ground.lerp_to_gamma(letters, PALE);
+                let [dark, light] = [luminance(ground), luminance(letters)];
+                let contrast = (dark.max(light) + 0.05) / (dark.min(light) + 0.05);
+                assert!(
+                    contrast >= 3.0,
+                    "{contrast} to 1, {theme:?}, presenter look {presenter}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn tips_of_lists_are_sentences() {

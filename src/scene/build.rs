@@ -356,8 +356,8 @@ impl<'doc> Builder<'doc> {
     /// The scene, once its textures are loaded.
     pub(super) fn finish(mut self, dialect: Dialect, canvas: DVec2) -> Scene {
         let files = SceneFiles {
-            document: None,
             textures: self.textures.digests(),
+            ..SceneFiles::default()
         };
         if let Some((shape, message)) = tiles::too_large(&self.patterns)
             && let Some(shape) = self.shapes.get(shape.0 as usize)

@@ -17,6 +17,9 @@ pub struct SceneFiles {
     /// Every texture file that could be read, by its address in the document, in the order of their first use. Images that
     /// are embedded belong to the document.
     pub textures: Vec<(String, FileDigest)>,
+    /// Paths of every file that the document names as a texture or an image, read or not, relative to the document: none of
+    /// them may be written over. At most 65 536 and one.
+    pub named: Vec<String>,
 }
 
 impl FileDigest {

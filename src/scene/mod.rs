@@ -19,6 +19,7 @@ mod error;
 mod location;
 mod media;
 mod model;
+mod named_files;
 mod numbers;
 mod progress;
 mod quotes;
@@ -195,5 +196,6 @@ fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources, progre
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
     scene.words = words::of(&tree);
+    scene.files.named = named_files::below(root);
     Ok(scene)
 }

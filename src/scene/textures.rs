@@ -348,13 +348,17 @@ fn embedded(address: &str) -> Result<Vec<u8>, String> {
 fn linked(address: &str, resources: &dyn Resources) -> Result<Vec<u8>, ResourceError> {
     let as_written = resources.read(address);
     if let Err(ResourceError::NotFound) = as_written {
-        let path = address.strip_prefix("file://").unwrap_or(address);
-        let decoded = percent_decoded(path);
-        if decoded != address {
-            return resources.read(&decoded);
+        let resolved = resolved(address);
+        if resolved != address {
+            return resources.read(&resolved);
         }
     }
     as_written
+}
+
+/// The path that an address means where nothing has its name as it stands: without `file://`, with its `%20`s resolved.
+pub(super) fn resolved(address: &str) -> String {
+    percent_decoded(address.strip_prefix("file://").unwrap_or(address))
 }
 
 /// `%20` and the like as the bytes that they stand for; what is no such thing stays.

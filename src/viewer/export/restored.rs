@@ -147,10 +147,14 @@ impl Changes {
 }
 
 impl SceneSource {
-    /// Protects the files that the scene was read from.
+    /// Protects the files that the scene was read from, and those that it names and that were of no use.
     pub fn protect(&self, files: &SceneFiles, guard: &mut Guard) {
         if let Self::File(path) = self {
+            let folder = path.parent().unwrap_or(Path::new(""));
             guard.protect(path);
+            for named in &files.named {
+                guard.protect(folder.join(named));
+            }
             guard.protect_contents(files.textures.iter().map(|(_, digest)| *digest));
         }
     }

@@ -107,6 +107,42 @@ fn outputs_never_replace_an_input() {
 }
 
 #[test]
+fn outputs_never_replace_what_a_scene_names_in_vain() {
+    let folder = folder();
+    let folder = folder.path();
+    let at = |name: &str| folder.join(name);
+    let webp = b"RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0\x2f\0\0\0\x10\x07\x10\x11\x11\x88\x88\xfe\x07\0";
+    for (name, body) in [
+        // Of a kind that is not read.
+        ("kind.svg", r#"<texture texid="t" filename="w.png"/>"#),
+        ("unused.svg", r#"<texture texid="u" filename="w.png"/>"#),
+        ("misspelt.svg", r#"<texture texid="T" filename="./w%2Epng"/>"#),
+        ("image.svg", r#"<image width="9" height="9" href="w.png"/>"#),
+        (
+            "hidden.svg",
+            r#"<g display="none"><image width="9" height="9" href="w.png"/></g>"#,
+        ),
+    ] {
+        let triangle = r#"<textri texid="t" uvs="0 0 1 0 1 1" points="2,3 37,9 11,28"/>"#;
+        let scene = format!(r#"<svg width="40" height="30">{body}{triangle}</svg>"#);
+        fs::write(at(name), scene).unwrap();
+        fs::write(at("w.png"), webp).unwrap();
+        let arguments = ["render", name, "-o", "w.png", SMALL, "--force"];
+        let told = run(folder, &arguments);
+        let stderr = String::from_utf8_lossy(&told.stderr).into_owned();
+        assert_eq!(told.status.code(), Some(2), "{name}: {stderr}");
+        assert!(stderr.contains("w.png: cannot write here"), "{name}: {stderr}");
+        assert_eq!(fs::read(at("w.png")).unwrap(), webp, "{name}: what was there");
+    }
+    fs::create_dir(at("coll")).unwrap();
+    fs::write(at("coll/a.svg"), SCENE.replace("tex%74ure", "a")).unwrap();
+    fs::write(at("coll/a.png"), webp).unwrap();
+    let told = run(folder, &["render", "coll", "-o", "coll", SMALL, "--force"]);
+    assert_eq!(told.status.code(), Some(2), "{told:?}");
+    assert_eq!(fs::read(at("coll/a.png")).unwrap(), webp, "of a whole folder as well");
+}
+
+#[test]
 fn outputs_are_files_and_never_standard_output() {
     let folder = folder();
     let line = "--line=1,5,30,5";

@@ -222,15 +222,27 @@ impl<'doc> TextureTable<'doc> {
         let fits = length <= self.bytes_left;
         // What turns out to be no image was read all the same.
         self.bytes_left = self.bytes_left.saturating_sub(length);
+        if !fits {
+            return Err(too_many_bytes());
+        }
         let (width, height) = Texture::size_of_encoded(&bytes).map_err(explain)?;
         let size = [width, height];
         let memory = Texture::memory_of_encoded(&bytes, size);
-        let held_left = self.held_left.checked_sub(length + memory.held);
-        let Some(left) = held_left.filter(|_| fits && memory.passing <= MAX_PASSING) else {
-            let most = (MAX_HELD + MAX_PASSING) >> 20;
+        if memory.passing > MAX_PASSING {
             return Err(format!(
-                "with its {width} x {height} texels the images of the scene would take more than {most} MB; make it \
-                 smaller"
+                "to decode its {width} x {height} texels takes {} MB besides what they fill, and one image may take {} MB; \
+                 make it smaller",
+                megabytes(memory.passing),
+                MAX_PASSING >> 20
+            ));
+        }
+        let taken = length + memory.held;
+        let Some(left) = self.held_left.checked_sub(taken) else {
+            return Err(format!(
+                "with its {width} x {height} texels the images of the scene would fill {} MB, and they may fill {} MB; make \
+                 it smaller",
+                megabytes(MAX_HELD - self.held_left + taken),
+                MAX_HELD >> 20
             ));
         };
         self.held_left = left;
@@ -242,10 +254,7 @@ impl<'doc> TextureTable<'doc> {
             return Err("network addresses are not fetched".to_owned());
         }
         if self.bytes_left == 0 {
-            return Err(format!(
-                "the files of all images together have more than {} MB",
-                MAX_BYTES >> 20
-            ));
+            return Err(too_many_bytes());
         }
         if is_data(address) {
             embedded(address)
@@ -268,6 +277,17 @@ impl fmt::Debug for TextureTable<'_> {
             .entries(self.entries.iter().map(|entry| name_of(&entry.address)))
             .finish()
     }
+}
+
+/// What is said where the files of images have no more room.
+fn too_many_bytes() -> String {
+    let most = MAX_BYTES >> 20;
+    format!("the files of all images together have more than {most} MB; make them smaller")
+}
+
+/// Bytes in megabytes of 2^20, rounded up, so that what is too much never looks like enough.
+const fn megabytes(bytes: u64) -> u64 {
+    bytes.div_ceil(1 << 20)
 }
 
 /// A texture's name in messages and tool tips.
@@ -430,12 +450,13 @@ mod tests {
         assert!(lines.iter().all(|line| !line.contains('\n')), "{lines:?}");
     }
 
-    /// Every name is a PNG of 8192 x 8192 texels, of which only the header is there.
-    struct Headers;
+    /// Every name is a PNG of so many texels a side, of which only the header is there.
+    struct Headers(u32);
 
     impl Resources for Headers {
         fn read(&self, _address: &str) -> Result<Vec<u8>, ResourceError> {
-            let mut header = b"IHDR\0\0\x20\0\0\0\x20\0\x10\x06\0\0\0".to_vec();
+            let side = self.0.to_be_bytes();
+            let mut header = [b"IHDR", &side, &side, b"\x10\x06\0\0\0".as_slice()].concat();
             let rest = header.iter().fold(u32::MAX, |rest, byte| {
                 (0..8).fold(rest ^ u32::from(*byte), |rest, _| {
                     if rest & 1 == 1 {
@@ -452,7 +473,8 @@ mod tests {
 
     #[test]
     fn texture_table_counts_all_images_together_before_it_decodes() {
-        let mut table = TextureTable::new(&Headers, Alpha::Keep);
+        let headers = Headers(8192);
+        let mut table = TextureTable::new(&headers, Alpha::Keep);
         let names: Vec<String> = (0..16).map(|i| format!("{}a.png", "./".repeat(i))).collect();
         let names: &'static [String] = names.leak();
         let sizes: Vec<_> = names
@@ -469,7 +491,8 @@ mod tests {
             .collect();
         assert_eq!(refusals.len(), 13, "the others are refused");
         assert!(
-            refusals[0].contains("8192 x 8192 texels") && refusals[0].contains("more than 1800 MB"),
+            refusals[0].contains("8192 x 8192 texels")
+                && refusals[0].contains("fill 1366 MB, and they may fill 1200 MB"),
             "{}",
             refusals[0]
         );
@@ -478,6 +501,30 @@ mod tests {
         let files = table.entries.into_iter().map(|entry| entry.file).collect();
         assert!(passing > MAX_PASSING, "all at once would be too much: {passing}");
         assert_eq!(batches(files).len(), 3, "one after the other");
+    }
+
+    #[test]
+    fn texture_table_tells_what_a_single_image_takes_too_much_of() {
+        for (side, words) in [
+            (
+                11_500,
+                "takes 631 MB besides what they fill, and one image may take 600 MB",
+            ),
+            (16_384, "takes 1280 MB besides"),
+        ] {
+            let headers = Headers(side);
+            let mut table = TextureTable::new(&headers, Alpha::Keep);
+            table.request("a.png", HERE).expect("few");
+            let told = table.entries[0].file.as_ref().expect_err("too large");
+            assert!(
+                told.contains(words) && told.ends_with("make it smaller"),
+                "{side}: {told}"
+            );
+        }
+        let headers = Headers(11_100);
+        let mut table = TextureTable::new(&headers, Alpha::Keep);
+        let id = table.request("a.png", HERE).expect("few");
+        assert_eq!(table.size(id), Some([11_100; 2]), "one that fits");
     }
 
     /// Names of a file that is large and no image.

@@ -31,6 +31,7 @@ mod svg;
 mod textures;
 mod tiles;
 mod triangles;
+mod unreadable;
 mod words;
 
 use std::path::Path;

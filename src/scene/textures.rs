@@ -10,9 +10,9 @@ use rayon::prelude::*;
 
 use super::cut_off::is_cut_off;
 use super::report::{quote, shorten};
-use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
+use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId, unreadable};
 use crate::memory::{self, OutOfMemory};
-use crate::texture::{DecodeError, Memory, PixelSampling, Texture};
+use crate::texture::{Memory, PixelSampling, Texture};
 
 /// Most bytes that all images of a scene may take together, encoded and as textures.
 const MAX_HELD: u64 = 1_200 << 20;
@@ -20,8 +20,6 @@ const MAX_HELD: u64 = 1_200 << 20;
 const MAX_PASSING: u64 = 600 << 20;
 /// Most bytes of all encoded images of a scene.
 const MAX_BYTES: u64 = 512 << 20;
-/// Most characters of the decoder's own message.
-const MAX_MESSAGE: usize = 160;
 /// Most characters of an address that is kept with its digest.
 const MAX_ADDRESS: usize = 400;
 /// Most different textures of a scene.
@@ -225,7 +223,7 @@ impl<'doc> TextureTable<'doc> {
         if !fits {
             return Err(too_many_bytes());
         }
-        let (width, height) = Texture::size_of_encoded(&bytes).map_err(explain)?;
+        let (width, height) = Texture::size_of_encoded(&bytes).map_err(|error| unreadable::told(&bytes, &error))?;
         let size = [width, height];
         let memory = Texture::memory_of_encoded(&bytes, size);
         if memory.passing > MAX_PASSING {
@@ -251,7 +249,9 @@ impl<'doc> TextureTable<'doc> {
 
     fn bytes(&mut self, address: &str) -> Result<Vec<u8>, String> {
         if !is_data(address) && is_elsewhere(address) {
-            return Err("network addresses are not fetched".to_owned());
+            return Err(
+                "network addresses are not fetched; save the file beside the document and name that".to_owned(),
+            );
         }
         if self.bytes_left == 0 {
             return Err(too_many_bytes());
@@ -323,16 +323,7 @@ fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<(Texture, bool), Str
         Alpha::Keep => Texture::decode(name, bytes).map(|texture| (texture, false)),
         Alpha::Drop => Texture::decode_opaque(name, bytes),
     };
-    texture.map_err(explain)
-}
-
-#[expect(clippy::needless_pass_by_value, reason = "shaped for map_err")]
-fn explain(error: DecodeError) -> String {
-    let message = error.to_string();
-    if message.contains("unexpected end of file") {
-        return "the file ends before its picture does; copy or save it again".to_owned();
-    }
-    shorten(&message, MAX_MESSAGE)
+    texture.map_err(|error| unreadable::told(bytes, &error))
 }
 
 pub(super) fn is_data(address: &str) -> bool {
@@ -511,6 +502,7 @@ mod tests {
                 "takes 631 MB besides what they fill, and one image may take 600 MB",
             ),
             (16_384, "takes 1280 MB besides"),
+            (16_385, "more than 16384 a side"),
         ] {
             let headers = Headers(side);
             let mut table = TextureTable::new(&headers, Alpha::Keep);

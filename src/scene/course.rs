@@ -10,7 +10,8 @@ use svgtypes::Length;
 use super::build::{Area, Builder, unit_square};
 use super::error::Fault;
 use super::report::quote;
-use super::triangles::{self, Element, TextureFiles};
+use super::texture_files::TextureFiles;
+use super::triangles::{self, Element};
 use super::{Paint, PrimitiveKind, Skipped, SkippedKind, attributes, course_values, numbers, svg};
 use crate::color::Rgba;
 use crate::geometry::FillRule;
@@ -234,9 +235,9 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let Element { node, shape, to_user } = element;
         let corner = self.point(node, ["x", "y"])?;
         let size = self.point(node, ["width", "height"])?;
-        let Some(texture) = triangles::texture(self.builder, node, attributes::href(node).unwrap_or("")) else {
-            return Ok(());
-        };
+        let location = self.builder.locate(node);
+        let address = attributes::href(node).unwrap_or("");
+        let texture = self.builder.textures.request(address, location);
         let square = to_user * DAffine2::from_scale_angle_translation(size, 0.0, corner);
         for (points, uv) in unit_square(square) {
             let paint = Paint::Texture {

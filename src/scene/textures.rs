@@ -29,6 +29,10 @@ pub(super) struct TextureTable<'doc> {
     resources: &'doc dyn Resources,
     alpha: Alpha,
     ids: HashMap<Key<'doc>, TextureId>,
+    /// Checkers by the names of textures that the document does not have.
+    undefined: HashMap<&'doc str, TextureId>,
+    /// The checker of all that are too many.
+    beyond: Option<TextureId>,
     entries: Vec<Entry<'doc>>,
     bytes_left: u64,
     held_left: u64,
@@ -77,6 +81,8 @@ impl<'doc> TextureTable<'doc> {
             resources,
             alpha,
             ids: HashMap::new(),
+            undefined: HashMap::new(),
+            beyond: None,
             entries: Vec::new(),
             bytes_left: MAX_BYTES,
             held_left: MAX_HELD,
@@ -99,13 +105,54 @@ impl<'doc> TextureTable<'doc> {
         Ok(bytes)
     }
 
-    /// The texture at `address`, asked for at `location`. `None` when there are too many.
-    pub(super) fn request(
-        &mut self,
-        address: impl Into<Cow<'doc, str>>,
-        location: SourceLocation,
-    ) -> Option<TextureId> {
+    /// The texture at `address`, asked for at `location`; the same checker for all that are too many.
+    pub(super) fn request(&mut self, address: impl Into<Cow<'doc, str>>, location: SourceLocation) -> TextureId {
         self.request_as((address.into(), None), location)
+            .unwrap_or_else(|| self.beyond(location))
+    }
+
+    /// A checker for the texture that the document calls `name` and does not have; the `trouble` is told once.
+    pub(super) fn undefined(
+        &mut self,
+        name: &'doc str,
+        location: SourceLocation,
+        trouble: impl FnOnce() -> String,
+    ) -> TextureId {
+        if let Some(&id) = self.undefined.get(name) {
+            return id;
+        }
+        if self.entries.len() >= MAX_TEXTURES {
+            return self.beyond(location);
+        }
+        let id = self.push(Entry {
+            address: Cow::Borrowed(name),
+            asks: None,
+            location,
+            file: Err(trouble()),
+        });
+        self.undefined.insert(name, id);
+        id
+    }
+
+    /// The checker of all that are too many.
+    fn beyond(&mut self, location: SourceLocation) -> TextureId {
+        if let Some(id) = self.beyond {
+            return id;
+        }
+        let id = self.push(Entry {
+            address: Cow::Owned(format!("beyond the first {MAX_TEXTURES}")),
+            asks: None,
+            location,
+            file: Err("a scene has no more textures than that; put several into one file".to_owned()),
+        });
+        self.beyond = Some(id);
+        id
+    }
+
+    fn push(&mut self, entry: Entry<'doc>) -> TextureId {
+        self.entries.push(entry);
+        // Their number has a ceiling.
+        TextureId(u32::try_from(self.entries.len() - 1).unwrap_or(u32::MAX))
     }
 
     /// The same texture, to be read by the nearest texel whatever the settings say; itself where there are too many.
@@ -124,16 +171,15 @@ impl<'doc> TextureTable<'doc> {
         if self.entries.len() >= MAX_TEXTURES {
             return None;
         }
-        let id = TextureId(u32::try_from(self.entries.len()).ok()?);
         let (address, asks) = key.clone();
         let file = self.read(&address);
-        self.ids.insert(key, id);
-        self.entries.push(Entry {
+        let id = self.push(Entry {
             address,
             asks,
             location,
             file,
         });
+        self.ids.insert(key, id);
         Some(id)
     }
 
@@ -259,7 +305,7 @@ impl<'doc> TextureTable<'doc> {
         if is_data(address) {
             embedded(address)
         } else if address.is_empty() {
-            Err("nothing says which file it is".to_owned())
+            Err("its <image> names no file; write href=\"FILE.png\" there".to_owned())
         } else {
             linked(address, self.resources).map_err(|error| {
                 if error.is_of_memory() {
@@ -403,7 +449,7 @@ mod tests {
     fn warnings(addresses: &[&'static str]) -> Vec<String> {
         let mut table = TextureTable::new(&NoResources, Alpha::Keep);
         for address in addresses {
-            table.request(*address, HERE).expect("few");
+            table.request(*address, HERE);
         }
         let mut report = Report::default();
         assert_eq!(
@@ -441,6 +487,39 @@ mod tests {
         assert!(lines.iter().all(|line| !line.contains('\n')), "{lines:?}");
     }
 
+    #[test]
+    fn texture_table_has_one_checker_for_all_that_are_too_many() {
+        let mut table = TextureTable::new(&NoResources, Alpha::Keep);
+        for i in 0..MAX_TEXTURES {
+            table.request(i.to_string(), HERE);
+        }
+        let beyond = table.request("one more", HERE);
+        assert_eq!(table.request("and one", HERE), beyond, "the same");
+        assert_eq!(table.undefined("t", HERE, String::new), beyond, "without a name, too");
+        assert_eq!(table.pixelated(beyond), beyond, "however it is read");
+        let mut report = Report::default();
+        assert_eq!(table.load(&mut report).len(), MAX_TEXTURES + 1, "one more");
+        assert_eq!(
+            report.unlisted, 3997,
+            "each that is missing, and those that are too many once"
+        );
+    }
+
+    #[test]
+    fn texture_table_tells_once_of_each_that_is_not_there() {
+        let mut table = TextureTable::new(&NoResources, Alpha::Keep);
+        let first = table.undefined("t", HERE, || "told".to_owned());
+        assert_eq!(table.undefined("t", HERE, || panic!("known")), first, "the same");
+        assert_ne!(table.undefined("u", HERE, || "told".to_owned()), first, "another");
+        assert_ne!(table.request("t", HERE), first, "a file of that name is none");
+        let mut report = Report::default();
+        let textures = table.load(&mut report);
+        assert_eq!(textures[0].name, "t", "its name");
+        let lines: Vec<String> = report.lines().collect();
+        assert_eq!(lines.len(), 3, "{lines:?}");
+        assert_eq!(lines[0], "1:2: texture t: told; a checker is drawn");
+    }
+
     /// Every name is a PNG of so many texels a side, of which only the header is there.
     struct Headers(u32);
 
@@ -470,7 +549,10 @@ mod tests {
         let names: &'static [String] = names.leak();
         let sizes: Vec<_> = names
             .iter()
-            .map(|name| table.request(name, HERE).and_then(|id| table.size(id)))
+            .map(|name| {
+                let id = table.request(name, HERE);
+                table.size(id)
+            })
             .collect();
         let fit = sizes.iter().flatten().count();
         assert_eq!(fit, 3, "358 MB each, of 1200");
@@ -506,7 +588,7 @@ mod tests {
         ] {
             let headers = Headers(side);
             let mut table = TextureTable::new(&headers, Alpha::Keep);
-            table.request("a.png", HERE).expect("few");
+            table.request("a.png", HERE);
             let told = table.entries[0].file.as_ref().expect_err("too large");
             assert!(
                 told.contains(words) && told.ends_with("make it smaller"),
@@ -515,7 +597,7 @@ mod tests {
         }
         let headers = Headers(11_100);
         let mut table = TextureTable::new(&headers, Alpha::Keep);
-        let id = table.request("a.png", HERE).expect("few");
+        let id = table.request("a.png", HERE);
         assert_eq!(table.size(id), Some([11_100; 2]), "one that fits");
     }
 
@@ -534,7 +616,7 @@ mod tests {
         let junk = Junk(0.into());
         let mut table = TextureTable::new(&junk, Alpha::Keep);
         for name in ["a", "b", "c", "d", "e", "f"] {
-            table.request(name, HERE).expect("few");
+            table.request(name, HERE);
         }
         assert_eq!(junk.0.into_inner(), 3, "600 MB of names is enough");
     }

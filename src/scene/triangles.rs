@@ -1,13 +1,12 @@
-//! The course's own triangles, which both dialects draw: `colortri`, `textri`, and the `texture`s that name files.
-
-use std::collections::HashMap;
+//! The course's own triangles, which both dialects draw: `colortri` and `textri`.
 
 use glam::{DAffine2, DVec2, Vec2};
 use roxmltree::Node;
 
 use super::build::Builder;
 use super::error::Fault;
-use super::{Paint, ShapeId, SkippedKind, TextureId, numbers};
+use super::texture_files::TextureFiles;
+use super::{Paint, ShapeId, SkippedKind, numbers};
 use crate::color::Rgba;
 
 /// What no dialect draws of a triangle.
@@ -23,28 +22,6 @@ pub(super) struct Element<'doc> {
 
 /// Three corners in user space, and what each has.
 pub(super) type Corners<T> = ([DVec2; 3], [T; 3]);
-
-/// File names of the textures by their `texid`.
-#[derive(Debug)]
-pub(super) struct TextureFiles<'doc>(HashMap<&'doc str, &'doc str>);
-
-impl<'doc> TextureFiles<'doc> {
-    /// All definitions below `root`, wherever they stand; of two with one name the later counts.
-    pub(super) fn below(root: Node<'doc, 'doc>) -> Self {
-        let textures = root.descendants().filter(|node| node.tag_name().name() == "texture");
-        let entry = |node: Node<'doc, 'doc>| {
-            let attribute = |name| node.attribute(name).unwrap_or("");
-            (attribute("texid"), attribute("filename"))
-        };
-        Self(textures.map(entry).collect())
-    }
-
-    /// The address of the texture that a `textri` shows.
-    pub(super) fn of(&self, node: Node<'doc, 'doc>) -> &'doc str {
-        let name = node.attribute("texid").unwrap_or("");
-        self.0.get(name).copied().unwrap_or("")
-    }
-}
 
 /// A triangle with a colour at each corner.
 pub(super) fn colortri(builder: &mut Builder<'_>, element: Element<'_>, opacity: f32) -> Result<(), Fault> {
@@ -72,8 +49,13 @@ pub(super) fn textri<'doc>(
     let Some((points, uv)) = mapped(builder, element) else {
         return Ok(());
     };
-    let Some(texture) = texture(builder, element.node, files.of(element.node)) else {
-        return Ok(());
+    let texid = element.node.attribute("texid").unwrap_or("");
+    let location = builder.locate(element.node);
+    let texture = match files.file(texid) {
+        Some(file) => builder.textures.request(file, location),
+        None => builder
+            .textures
+            .undefined(texid, location, || files.trouble(element.node)),
     };
     builder.triangle(element.shape, points, Paint::Texture { texture, uv, opacity })
 }
@@ -82,20 +64,6 @@ pub(super) fn textri<'doc>(
 pub(super) fn mapped(builder: &mut Builder<'_>, element: Element<'_>) -> Option<Corners<Vec2>> {
     let uv = corner_uvs(builder, element.node);
     corners(builder, element).zip(uv)
-}
-
-/// The texture at `address`, or a warning that there are too many.
-pub(super) fn texture<'doc>(
-    builder: &mut Builder<'doc>,
-    node: Node<'doc, 'doc>,
-    address: &'doc str,
-) -> Option<TextureId> {
-    let location = builder.locate(node);
-    let id = builder.textures.request(address, location);
-    if id.is_none() {
-        builder.warn(node, "not drawn: the scene has too many textures".to_owned());
-    }
-    id
 }
 
 /// All numbers of an attribute; none if it is missing.

@@ -16,8 +16,9 @@ use crate::scene::build::Builder;
 use crate::scene::document::{LineIndex, Source};
 use crate::scene::edits::Edits;
 use crate::scene::selectors;
+use crate::scene::texture_files::TextureFiles;
 use crate::scene::textures::{Alpha, TextureTable, is_data};
-use crate::scene::triangles::{self, Element, TextureFiles};
+use crate::scene::triangles::{self, Element};
 use crate::scene::{NoResources, Paint, Progress, Report, ShapeId, TextureId};
 
 /// The opacity of paints that are numbers: one of 2^23 between a half and one.
@@ -136,7 +137,7 @@ impl Names {
 pub(super) fn drawn<'doc>(
     source: &'doc Source<'doc>,
     nodes: &[Node<'doc, 'doc>],
-    load: impl Fn(&str) -> Option<TextureId>,
+    load: impl Fn(&str) -> TextureId,
 ) -> (Vec<Option<Drawn>>, Report) {
     let Some(first) = nodes.first() else {
         return (Vec::new(), Report::default());
@@ -159,16 +160,15 @@ pub(super) fn drawn<'doc>(
         }
         let mapped = triangles::mapped(&mut builder, element);
         found.push(mapped.and_then(|(points, uv)| {
-            let address = files.of(node);
             let name = node.attribute("texid").unwrap_or("");
+            let address = files.file(name);
             // Addresses with their pixels are long, and many triangles share one.
             let texture = textures_by_name.entry(name);
-            let texture = *texture.or_insert_with(|| is_data(address).then(|| load(address)).flatten());
+            let texture = *texture.or_insert_with(|| address.filter(|address| is_data(address)).map(&load));
             if texture.is_none() {
-                let why = if is_data(address) {
-                    "the scene has too many textures"
-                } else {
-                    "documents in images read no other files"
+                let why = match address {
+                    Some(_) => "documents in images read no other files".to_owned(),
+                    None => files.trouble(node),
                 };
                 builder.warn(node, format!("a textri is not drawn: {why}"));
             }

@@ -13,7 +13,7 @@ use super::pictures::Picture;
 use super::styles::Effects;
 use crate::color::Rgba;
 use crate::scene::build::Builder;
-use crate::scene::triangles::TextureFiles;
+use crate::scene::texture_files::TextureFiles;
 use crate::scene::{GradientId, PatternId, Scene, ShapeId, SourceLocation};
 
 /// Paints one document.

@@ -209,11 +209,7 @@ fn numbered<'doc>(
         }
     } else {
         let texture = guard.builder.textures.request(address.clone(), location);
-        if texture.is_none() {
-            let message = "not drawn: the scene has too many textures".to_owned();
-            guard.builder.report.warn(location, message);
-        }
-        texture.map(|texture| guard.add(Picture::Texture(texture)))
+        Some(guard.add(Picture::Texture(texture)))
     };
     guard.known.insert(address, number);
     number

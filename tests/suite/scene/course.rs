@@ -247,6 +247,53 @@ fn course_incomplete_triangles_are_reported() {
 }
 
 #[test]
+fn textures_that_are_not_there_are_told_one_by_one() {
+    let triangle = |texid: &str| format!("<textri {texid} points='0 0 1 0 0 1' uvs='0 0 1 0 0 1'/>");
+    let body = [
+        "<texture texid='t' filename='no.png'/>",
+        &triangle("texid='T'"),
+        &triangle("texid='u'"),
+        &triangle("texid='u'"),
+        &triangle("texid='t'"),
+        &triangle(""),
+        "<image width='9' height='9'/>",
+    ];
+    let cures = [
+        "texture T: no <texture> has texid=\"T\", but one has texid=\"t\"; write both alike; a checker is drawn",
+        "texture u: no <texture> has texid=\"u\"; give it one of those that are there: t; a checker is drawn",
+        "texture no.png: there is no such file; a checker is drawn",
+        "texture without a name: its <textri> has no texid; give it one of those that are there: t; a checker is drawn",
+        "texture without a name: its <image> names no file; write href=\"FILE.png\" there; a checker is drawn",
+    ];
+    let scene = course(&body.concat());
+    let told = lines(&scene);
+    assert_eq!(told.len(), cures.len(), "{told:?}");
+    for (line, cure) in told.iter().zip(cures) {
+        assert!(line.ends_with(&format!(": {cure}")), "{line}");
+    }
+    assert_eq!(scene.textures[0].name, "T", "what explanations call it");
+    assert_eq!(scene.primitives.len(), 5 + 2, "each is drawn");
+    // The course's reader takes a texture without a name for a triangle without one.
+    let nameless = course(&["<texture filename='no.png'/>", &triangle("")].concat());
+    assert_eq!(nameless.textures[0].name, "no.png", "{:?}", nameless.report);
+}
+
+#[test]
+fn textures_beyond_the_last_are_checkers_like_those_that_are_missing() {
+    let triangles: Vec<String> = (0..4098)
+        .map(|i| {
+            format!(
+                "<texture texid='{i}' filename='{i}.png'/><textri texid='{i}' points='0 0 1 0 0 1' uvs='0 0 1 0 0 1'/>"
+            )
+        })
+        .collect();
+    let scene = course(&triangles.concat());
+    assert_eq!(scene.primitives.len(), 4098, "all are drawn");
+    assert_eq!(scene.textures.len(), 4097, "the last two by one checker");
+    assert_eq!(scene.textures[4096].name, "beyond the first 4096");
+}
+
+#[test]
 fn course_tells_what_it_leaves_out() {
     let body = "<colortri points='0 0 1 0 0 1 7' colors='1 0 0 1 0 1 0 .5 0 0 1 1'/>\
                 <polygon points='0,0 4,0 4,4 9' fill='#ff0000'/>\

@@ -94,6 +94,13 @@ impl Report {
             self.unlisted = self.unlisted.saturating_add(1);
         }
     }
+
+    /// Adds a warning that is told of the first place alone.
+    pub(super) fn warn_once(&mut self, location: SourceLocation, message: &str) {
+        if !self.warnings.iter().any(|warning| warning.message == message) {
+            self.warn(location, message.to_owned());
+        }
+    }
 }
 
 impl fmt::Display for Skipped {

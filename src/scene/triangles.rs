@@ -5,7 +5,8 @@ use roxmltree::Node;
 
 use super::build::Builder;
 use super::error::Fault;
-use super::texture_files::TextureFiles;
+use super::report::quote;
+use super::texture_files::{TextureFiles, misspelt};
 use super::{Paint, ShapeId, SkippedKind, numbers};
 use crate::color::Rgba;
 
@@ -72,8 +73,35 @@ pub(super) fn numbers(builder: &Builder<'_>, node: Node<'_, '_>, name: &str) -> 
     numbers::all(name, text).map_err(|problem| problem.at(builder.locate_attribute(node, name)))
 }
 
-/// The first `N` numbers of an attribute, or a warning that there are fewer; another where there are more than `most`.
-fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, name: &str, most: usize) -> Option<[f32; N]> {
+/// What an attribute holds for each of the three corners.
+#[derive(Clone, Copy, Debug)]
+struct CornerNumbers {
+    attribute: &'static str,
+    /// How many numbers it should hold.
+    needed: usize,
+    /// Their names at one corner.
+    each: &'static str,
+}
+
+const POINTS: CornerNumbers = CornerNumbers {
+    attribute: "points",
+    needed: 6,
+    each: "x y",
+};
+const COLORS: CornerNumbers = CornerNumbers {
+    attribute: "colors",
+    needed: 12,
+    each: "r g b a",
+};
+const UVS: CornerNumbers = CornerNumbers {
+    attribute: "uvs",
+    needed: 6,
+    each: "u v",
+};
+
+/// The first `N` numbers of an attribute, which are enough to draw; a warning where there are not just as many as are needed.
+fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, corners: CornerNumbers) -> Option<[f32; N]> {
+    let name = corners.attribute;
     let numbers = match numbers::all(name, node.attribute(name).unwrap_or("")) {
         Ok(numbers) => numbers,
         Err(problem) => {
@@ -83,21 +111,45 @@ fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, name: &s
         }
     };
     let first = numbers.first_chunk::<N>().copied();
-    let count = numbers.len();
-    if first.is_none() {
-        builder.warn(node, format!("not drawn: {name} holds {count} numbers, not {N}"));
-    } else if count > most {
+    if numbers.len() != corners.needed {
+        let told = corners.told(node, numbers.len());
         builder.warn(
             node,
-            format!("{name} holds {count} numbers; those after the first {most} have no effect"),
+            if first.is_none() {
+                format!("not drawn: {told}")
+            } else {
+                told
+            },
         );
     }
     first
 }
 
+impl CornerNumbers {
+    /// What is wrong with an attribute that holds `count` numbers.
+    fn told(self, node: Node<'_, '_>, count: usize) -> String {
+        let Self {
+            attribute,
+            needed,
+            each,
+        } = self;
+        if !node.has_attribute(attribute) {
+            return match misspelt(node, attribute) {
+                Some(meant) => format!("{attribute} is missing; write it for {}", quote(meant)),
+                None => format!("{attribute} is missing; {needed} numbers are needed: {each} for each corner"),
+            };
+        }
+        if count > needed {
+            return format!("{attribute} holds {count} numbers; those after the first {needed} have no effect");
+        }
+        let s = if count == 1 { "" } else { "s" };
+        format!("{attribute} holds {count} number{s}; {needed} are needed: {each} for each corner")
+    }
+}
+
 /// Three `x y` in `points`, in user space.
 fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Option<[DVec2; 3]> {
-    let numbers = first::<6>(builder, element.node, "points", 6)?;
+    let numbers = first::<6>(builder, element.node, POINTS)?;
     let corner = |n: [f32; 6], i: usize| {
         element
             .to_user
@@ -106,20 +158,26 @@ fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Option<[DVec2; 3]
     Some([0, 2, 4].map(|i| corner(numbers, i)))
 }
 
-/// Three `r g b a` in `colors`; the opacity means nothing, and the last one may be missing.
+/// Three `r g b a` in `colors`; the opacity means nothing, and the last one is not waited for.
 fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Option<[Rgba; 3]> {
-    let n = first::<11>(builder, node, "colors", 12)?;
+    let numbers = first::<11>(builder, node, COLORS)?;
     let all = numbers::all("colors", node.attribute("colors").unwrap_or("")).unwrap_or_default();
     let last = all.get(11).copied().unwrap_or(1.0);
-    if [n[3], n[7], last].into_iter().any(|alpha| alpha < 1.0) {
+    if [numbers[3], numbers[7], last].into_iter().any(|alpha| alpha < 1.0) {
         builder.skip(SkippedKind::Attribute, ALPHA, node);
     }
+    if numbers.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
+        let message =
+            "colors go from 0 to 1, and what is beyond is taken as 0 or 1; divide those that go to 255 by 255";
+        let location = builder.locate(node);
+        builder.report.warn_once(location, message);
+    }
     let unit = |channel: f32| channel.clamp(0.0, 1.0);
-    Some([0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2]))))
+    Some([0, 4, 8].map(|i| Rgba::opaque(unit(numbers[i]), unit(numbers[i + 1]), unit(numbers[i + 2]))))
 }
 
 /// Three `u v` in `uvs`.
 fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Option<[Vec2; 3]> {
-    let n = first::<6>(builder, node, "uvs", 6)?;
+    let n = first::<6>(builder, node, UVS)?;
     Some([0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1])))
 }

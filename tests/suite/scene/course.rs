@@ -240,10 +240,76 @@ fn course_incomplete_triangles_are_reported() {
     assert!(scene.primitives.is_empty(), "nothing to draw");
     let lines = lines(&scene);
     assert!(
-        lines[0].ends_with("not drawn: points holds 4 numbers, not 6"),
+        lines[0].ends_with("not drawn: points holds 4 numbers; 6 are needed: x y for each corner"),
         "{lines:?}"
     );
     assert_eq!(lines.len(), 3, "textri lacks points and uvs: {lines:?}");
+}
+
+#[test]
+fn course_triangles_tell_how_many_numbers_they_need_and_which_attribute_is_meant() {
+    let points = "points='0 0 1 0 0 1'";
+    for (body, told, drawn) in [
+        (
+            format!("<colortri {points} colors='1 0 0 0 1 0 0 0 1'/>"),
+            "not drawn: colors holds 9 numbers; 12 are needed: r g b a for each corner",
+            0,
+        ),
+        (
+            format!("<colortri {points} colors='1 0 0 1 0 1 0 1 0 0 1'/>"),
+            "colors holds 11 numbers; 12 are needed: r g b a for each corner",
+            1,
+        ),
+        (
+            format!("<colortri {points}/>"),
+            "not drawn: colors is missing; 12 numbers are needed: r g b a for each corner",
+            0,
+        ),
+        (
+            format!("<colortri {points} colours='1 0 0 1 1 0 0 1 1 0 0 1'/>"),
+            "not drawn: colors is missing; write it for colours",
+            0,
+        ),
+        (
+            "<colortri pionts='0 0 1 0 0 1' colors='1 0 0 1 1 0 0 1 1 0 0 1'/>".to_owned(),
+            "not drawn: points is missing; write it for pionts",
+            0,
+        ),
+        (
+            format!("<textri {points} uv='0 0 1 0 0 1'/>"),
+            "not drawn: uvs is missing; write it for uv",
+            0,
+        ),
+        (
+            format!("<textri {points} uvs='7'/>"),
+            "not drawn: uvs holds 1 number; 6 are needed: u v for each corner",
+            0,
+        ),
+    ] {
+        let scene = course(&body);
+        let lines = lines(&scene);
+        assert!(
+            matches!(lines.as_slice(), [line] if line.ends_with(&format!(": {told}"))),
+            "{body}: {lines:?}"
+        );
+        assert_eq!(scene.primitives.len(), drawn, "{body}");
+    }
+}
+
+#[test]
+fn course_colors_beyond_one_are_told_once_with_a_cure() {
+    let bytes = "<colortri points='0 0 1 0 0 1' colors='255 0 0 255 0 255 0 255 0 0 255 255'/>";
+    let scene = course(&[bytes, bytes].concat());
+    let lines = lines(&scene);
+    assert!(
+        matches!(lines.as_slice(), [line] if line.ends_with("divide those that go to 255 by 255")),
+        "{lines:?}"
+    );
+    let colors = PrimitiveKind::Triangle {
+        points: [DVec2::ZERO, DVec2::X, DVec2::Y],
+        paint: Paint::Vertex([RED, Rgba::opaque(0.0, 1.0, 0.0), BLUE]),
+    };
+    assert_eq!(kinds(&scene), [colors.clone(), colors], "clamped");
 }
 
 #[test]
@@ -309,7 +375,7 @@ fn course_tells_what_it_leaves_out() {
         "1:85: points holds 7 numbers; those after the first 6 have no effect",
         "1:153: points holds 7 numbers; the last one has no partner and is left out",
         "1:201: points holds 5 numbers; the last one has no partner and is left out",
-        "1:296: not drawn: points holds 5 numbers, not 6",
+        "1:296: not drawn: points holds 5 numbers; 6 are needed: x y for each corner",
     ];
     assert_eq!(lines(&scene), expected, "each in its line");
     assert_eq!(

@@ -152,8 +152,8 @@ impl Picture {
 /// Reads a scene; what the reader skipped is said on stderr, line by line.
 pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result<Scene, Failure> {
     let scene = source.read(dialect).map_err(|error| Failure::of_scene(&error))?;
-    for line in scene.report.lines() {
-        print_error(&format!("{}:{line}", source.address()));
+    for line in scene.report.lines_in(&source.address()) {
+        print_error(&line);
     }
     if dialect == DialectChoice::Auto {
         tell_reading(source, &scene, "");

@@ -68,6 +68,22 @@ impl Report {
         skipped.chain(warnings).chain(rest)
     }
 
+    /// The same lines as they stand behind the name of a file: the place, if there is one, follows its colon.
+    pub fn lines_in<'a>(&'a self, file: &'a str) -> impl Iterator<Item = String> + 'a {
+        let listed = self.skipped.len() + self.warnings.len();
+        let named = move |(i, line): (usize, String)| {
+            let blank = if i < listed { "" } else { " " };
+            format!("{file}:{blank}{line}")
+        };
+        self.lines().enumerate().map(named)
+    }
+
+    /// How many entries there are, with those that are only counted.
+    pub fn count(&self) -> usize {
+        let unlisted = usize::try_from(self.unlisted).unwrap_or(usize::MAX);
+        unlisted.saturating_add(self.skipped.len() + self.warnings.len())
+    }
+
     /// Counts one skipped element or attribute.
     pub(super) fn skip(&mut self, kind: SkippedKind, name: &str, location: SourceLocation) {
         let name = quote(name);
@@ -173,6 +189,10 @@ mod tests {
             "two full lists and the rest"
         );
         assert_eq!(report.unlisted, 19_800, "the rest is counted");
+        assert_eq!(report.count(), 20_000, "all of them");
+        let named: Vec<String> = report.lines_in("a.svg").collect();
+        assert_eq!(named[100], "a.svg:3:7: w", "with its place");
+        assert_eq!(named[200], "a.svg: and 19800 more", "without one");
     }
 
     #[test]

@@ -8,9 +8,6 @@ use super::controls::{command_button, heading};
 use crate::inspect::counted;
 use crate::viewer::{Command, SceneCommand, SceneEntry, Viewer};
 
-/// Lines of the reader's report that are shown at once.
-const MAX_LINES: usize = 200;
-
 /// What is said of a picture whose file cannot be read any more.
 pub(super) const AS_BEFORE: &str = "shown as it was read last";
 
@@ -103,9 +100,8 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
         heading(ui, "Reader: no notes");
         return;
     }
-    let count = scene.report.lines().count();
-    heading(ui, &format!("Reader: {}", counted(count, "note")));
-    for line in scene.report.lines().take(MAX_LINES) {
+    heading(ui, &format!("Reader: {}", counted(scene.report.count(), "note")));
+    for line in scene.report.lines() {
         ui.label(RichText::new(line).small().color(ui.visuals().warn_fg_color));
     }
 }

@@ -236,7 +236,7 @@ impl Session {
                 entry.source.address()
             );
         }
-        let notes = scene.report.lines().count();
+        let notes = scene.report.count();
         self.told = Some(std::sync::Arc::clone(scene));
         if notes > 0 {
             let words = format!(

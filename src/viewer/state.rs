@@ -299,4 +299,10 @@ impl Viewer {
         self.chrome.messages.add(kind, text);
         self.revision += 1;
     }
+
+    /// Takes back what was told and is no longer so: messages that begin like this.
+    pub fn retract(&mut self, beginning: &str) {
+        self.chrome.messages.retract(beginning);
+        self.revision += 1;
+    }
 }

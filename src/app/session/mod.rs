@@ -33,6 +33,8 @@ use room::{Asks, PanelRoom, Wanted};
 const MAX_PASSES: u32 = 4;
 /// Surfaces have two or three buffers; one that was shown longer ago is written whole.
 const LONGEST_AGE: usize = 3;
+/// How the message about what a reader left out begins.
+const NOT_ALL: &str = "not all is drawn as the document says";
 
 /// What time it is for the panels.
 #[derive(Debug)]
@@ -206,21 +208,18 @@ impl Session {
         }
     }
 
-    /// Says on stderr, once for every scene that is shown, what its reader left out.
+    /// Says on stderr, once for every scene that is shown, what its reader left out; the message goes with the scene.
     fn tell_report(&mut self) {
-        let Some((entry, scene)) = self
-            .viewer
-            .scene_list()
-            .current()
-            .and_then(|entry| Some((entry, entry.scene()?)))
-        else {
+        let shown = self.viewer.scene_list().current();
+        let Some((entry, scene)) = shown.and_then(|entry| Some((entry, entry.scene()?))) else {
+            // While a scene is read, the one before may still be seen, but not for long.
+            if self.told.take().is_some() {
+                self.viewer.retract(NOT_ALL);
+            }
             return;
         };
-        if self
-            .told
-            .as_ref()
-            .is_some_and(|told| std::sync::Arc::ptr_eq(told, scene))
-        {
+        let is_told = |told: &std::sync::Arc<crate::scene::Scene>| std::sync::Arc::ptr_eq(told, scene);
+        if self.told.as_ref().is_some_and(is_told) {
             return;
         }
         let mut stderr = std::io::stderr().lock();
@@ -237,12 +236,11 @@ impl Session {
             );
         }
         let notes = scene.report.count();
-        self.told = Some(std::sync::Arc::clone(scene));
+        if self.told.replace(std::sync::Arc::clone(scene)).is_some() {
+            self.viewer.retract(NOT_ALL);
+        }
         if notes > 0 {
-            let words = format!(
-                "not all is drawn as the document says: {} at the end of the panel",
-                counted(notes, "note")
-            );
+            let words = format!("{NOT_ALL}: {} at the end of the panel", counted(notes, "note"));
             self.viewer.tell(MessageKind::Done, words);
         }
     }

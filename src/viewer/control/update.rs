@@ -105,6 +105,9 @@ impl Viewer {
     /// After any change: reads what must be read, wants the right frame, places the inset, saves what waits for it.
     pub(in crate::viewer) fn update(&mut self) {
         self.revision += 1;
+        if let Some(broken) = self.scene_list.left_broken() {
+            self.chrome.messages.forget_problems_of(&broken);
+        }
         self.scene_list.want(self.ab.wanted_dialects(&self.settings));
         self.opening().complete_restored();
         follow_lesson(self);

@@ -167,6 +167,7 @@ impl SceneList {
                 // Over a picture that stays it is to be seen for as long as it is so.
                 if is_current && (before.is_none() || chrome.hidden) {
                     chrome.messages.error(why.message.clone());
+                    self.told_broken = Some(((self.current, self.generation), entry.source.address()));
                 }
                 SceneState::Failed { why, dialect, before }
             }

@@ -32,6 +32,8 @@ pub struct SceneList {
     /// The view that every scene begins with.
     pub(in crate::viewer) start_view: View,
     pub(in crate::viewer) readers: Readers,
+    /// Which scene was told to be broken, and its address.
+    pub(in crate::viewer) told_broken: Option<((usize, u64), String)>,
 }
 
 impl SceneList {
@@ -48,7 +50,15 @@ impl SceneList {
             follows_files: true,
             start_view,
             readers,
+            told_broken: None,
         }
+    }
+
+    /// The address of the scene that was told to be broken, once another one is shown.
+    pub(in crate::viewer) fn left_broken(&mut self) -> Option<String> {
+        let now = self.identity();
+        let (_, address) = self.told_broken.take_if(|(broken, _)| *broken != now)?;
+        Some(address)
     }
 
     /// All scenes, in the order of the list.

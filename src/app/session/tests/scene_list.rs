@@ -55,6 +55,36 @@ fn arrows_of_the_scenes_stay_under_the_pointer() {
 }
 
 #[test]
+fn messages_about_a_scene_go_with_it() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let paths = ["3.svg", "1.svg", "4.svg", "5.svg"].map(path);
+    let mut session = session(paths.to_vec(), [1280, 800]);
+    let told = |session: &Session, words: &str| {
+        let messages = session.viewer.chrome().messages();
+        messages.iter().any(|message| message.text.contains(words))
+    };
+    session.settle();
+    assert!(told(&session, NOT_ALL), "of the scene with a note");
+    session.command(Command::Scenes(SceneCommand::Next));
+    session.settle();
+    assert!(!told(&session, NOT_ALL), "the next has none");
+    session.command(Command::Scenes(SceneCommand::Next));
+    session.settle();
+    assert!(told(&session, "4.svg:"), "the one that cannot be read");
+    session.command(Command::Scenes(SceneCommand::Next));
+    session.settle();
+    assert!(!told(&session, "4.svg:"), "the one behind it can");
+    session.command(Command::Scenes(SceneCommand::Show(0)));
+    session.settle();
+    assert!(told(&session, NOT_ALL), "told again where it is shown again");
+    std::fs::copy(path("1.svg"), path("3.svg")).expect("a file");
+    session.command(Command::Scenes(SceneCommand::Reload));
+    session.settle();
+    assert!(!told(&session, NOT_ALL), "read anew without notes");
+}
+
+#[test]
 fn scene_without_a_picture_says_so() {
     let folder = folder();
     let point = "point at a pixel";

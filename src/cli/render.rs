@@ -86,7 +86,7 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
     if failed > 0 {
         let all = entries.len();
         return Err(Failure::input(format!(
-            "{failed} of {all} scenes could not be drawn: each has its line above"
+            "{failed} of {all} pictures were not written: each has its line above"
         )));
     }
     Ok(())

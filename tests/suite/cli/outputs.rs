@@ -218,6 +218,11 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
     fs::write(at("in/a.png"), &foreign).unwrap();
     let output = run(folder, &["render", "in", "-o", "in", SMALL]);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        told.contains("1 of 1 pictures were not written"),
+        "it could be drawn: {told}"
+    );
     assert_eq!(fs::read(at("in/a.png")).unwrap(), foreign, "kept");
     fs::write(at("in/b.svg"), SCENE).unwrap();
     refused(

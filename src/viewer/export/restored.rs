@@ -1,5 +1,6 @@
 //! Pictures that tell how they were made: finding their scene again, and what of it has changed since.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use crate::figure::{Guard, Record, RecordedFile};
@@ -75,6 +76,9 @@ impl Restored {
             let (_, digest) = files.textures.iter().find(|(known, _)| known == address)?;
             Some(digest.to_string())
         });
+        if !is_other {
+            changes.add_new_textures(&self.record, files.textures.iter().map(|(address, _)| address.as_str()));
+        }
         changes.line(&self.shot)
     }
 }
@@ -93,6 +97,9 @@ pub fn changed_inputs(then: &Record, now: &Record, shot: &Path) -> Option<String
         let mut textures = now.textures.iter();
         Some(textures.find(|texture| texture.address == address)?.sha256.clone())
     });
+    if !is_other {
+        changes.add_new_textures(then, now.textures.iter().map(|texture| texture.address.as_str()));
+    }
     changes.line(shot)
 }
 
@@ -103,6 +110,8 @@ struct Changes {
     changed: Vec<String>,
     /// These were not read again, and why.
     missing: Vec<String>,
+    /// These could not be read then.
+    new: Vec<String>,
 }
 
 impl Changes {
@@ -118,6 +127,13 @@ impl Changes {
                 None => self.missing.push(format!("{name} is gone")),
             }
         }
+    }
+
+    /// Textures that the same scene reads `now` and could not read then.
+    fn add_new_textures<'a>(&mut self, then: &Record, now: impl Iterator<Item = &'a str>) {
+        let known: HashSet<&str> = then.textures.iter().map(|texture| texture.address.as_str()).collect();
+        let new = now.filter(|address| !known.contains(address));
+        self.new.extend(new.map(|address| format!("the texture {address}")));
     }
 
     /// In one line; `None` where nothing happened.
@@ -141,7 +157,11 @@ impl Changes {
             others if others.is_empty() => format!("{first}{since}"),
             others => format!("{first}{since},{others} as well"),
         });
-        let parts: Vec<String> = [changed, missing].into_iter().flatten().collect();
+        let new = self.new.first().map(|first| {
+            let others = others(&self.new);
+            format!("{first}{others} could not be read when {shot} was made, and can be now")
+        });
+        let parts: Vec<String> = [changed, missing, new].into_iter().flatten().collect();
         (!parts.is_empty()).then(|| parts.join(", and "))
     }
 }

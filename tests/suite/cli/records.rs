@@ -178,6 +178,20 @@ fn rerun_tells_how_much_differs_and_why() {
 }
 
 #[test]
+fn rerun_names_a_texture_that_was_missing_then() {
+    let work = workplace();
+    fs::remove_file(work.path().join("t.png")).unwrap();
+    let drawn = run(work.path(), &["render", "a.svg", "-o", "b.png", "--size", "60x60"]);
+    assert!(drawn.status.success(), "a checker: {drawn:?}");
+    fs::write(work.path().join("t.png"), texture(0xffff_8000)).unwrap();
+    let output = run(work.path(), &["rerun", "b.png", "--check"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    let why = "of 3600 pixels; the texture t.png could not be read when b.png was made, and can be now";
+    assert!(said.contains(why), "{said}");
+}
+
+#[test]
 fn rerun_refuses_what_tells_nothing() {
     let work = workplace();
     fs::write(work.path().join("plain.png"), texture(0xff00_0000)).unwrap();

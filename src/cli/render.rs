@@ -51,6 +51,12 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
             options.output.display()
         )));
     }
+    if !options.output.exists() && is_named_like_a_picture(&options.output) {
+        return Err(Failure::input(format!(
+            "{}: the pictures of a folder go into a folder, and this is the name of one picture; give another with -o",
+            options.output.display()
+        )));
+    }
     let (entries, problems) = list_scenes(std::slice::from_ref(&options.scene));
     if let Some(problem) = problems.into_iter().next() {
         return Err(Failure::Input(problem));
@@ -90,6 +96,14 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         )));
     }
     Ok(())
+}
+
+/// Whether somebody who names a file so means a picture.
+fn is_named_like_a_picture(output: &Path) -> bool {
+    let ending = output.extension().unwrap_or_default();
+    ["png", "jpg", "jpeg"]
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// Where the picture of a scene in a folder goes: the same place in the output folder.

@@ -230,6 +230,11 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
         &["render", "in", "-o", "other.png", SMALL],
         &["other.png", "a file", "folder with -o"],
     );
+    refused(
+        folder,
+        &["render", "in", "-o", "new.PNG", SMALL],
+        &["new.PNG", "go into a folder", "another with -o"],
+    );
     fs::write(at("points.csv"), "name,points\nme,9\n").unwrap();
     let sweep = |table| ["sweep", "gallery:basic/test4.svg", "--csv", table, SMALL, "--frames=1"];
     refused(folder, &sweep("points.csv"), &["points.csv", "--force"]);

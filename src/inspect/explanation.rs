@@ -97,6 +97,7 @@ impl Explanation {
         }
         let pinholes = question.pinholes(&samples, &paints, sources);
         missed.retain(|missed| pinholes.iter().all(|pinhole| pinhole.primitive != missed.source));
+        let positions: Vec<DVec2> = samples.iter().map(|sample| sample.position.into()).collect();
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
         if let Some(topmost) = Self::topmost_of(&mut paints)
             && topmost.area.is_some_and(|area| area < 1.0)
@@ -118,7 +119,7 @@ impl Explanation {
             paints,
             pinholes,
             unlisted,
-            missed: question.missed(missed, sources, around),
+            missed: question.missed(missed, sources, around, &positions),
             truth: None,
         })
     }
@@ -151,7 +152,13 @@ struct Shaped {
 
 impl Question<'_> {
     /// What covers parts of the pixel and none of its samples, and how wide it is `around` the pixel.
-    fn missed(&self, found: Vec<MissedPrimitive>, sources: Sources<'_>, around: f64) -> Vec<Missed> {
+    fn missed(
+        &self,
+        found: Vec<MissedPrimitive>,
+        sources: Sources<'_>,
+        around: f64,
+        positions: &[DVec2],
+    ) -> Vec<Missed> {
         let missed = |found: MissedPrimitive| {
             let MissedPrimitive {
                 source: primitive,
@@ -168,6 +175,7 @@ impl Question<'_> {
                 area,
                 shown: None,
                 width: sources.explainer.width(primitive, around)?,
+                ties: self.ties(primitive, sources.explainer, positions),
             })
         };
         found.into_iter().filter_map(missed).collect()
@@ -262,7 +270,7 @@ impl Question<'_> {
     }
 
     /// The polygon that a primitive of the scene is, if it is one.
-    fn polygon(&self, primitive: u32) -> Option<&Polygon> {
+    pub(super) fn polygon(&self, primitive: u32) -> Option<&Polygon> {
         match &self.subject.scene.primitives.get(primitive as usize)?.kind {
             PrimitiveKind::Polygon { polygon, .. } => Some(polygon),
             _ => None,

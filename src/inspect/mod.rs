@@ -31,6 +31,8 @@ mod servers;
 mod siblings;
 mod smoothing;
 mod text;
+mod tie;
+mod ties;
 mod triangle_views;
 mod words;
 
@@ -48,3 +50,4 @@ pub use numbers::counted;
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use smoothing::{Blended, EdgePattern, PixelSide, Smoothing};
 pub use text::Detail;
+pub use tie::{Tie, TieOwner, TieSide};

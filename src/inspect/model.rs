@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::area_use::{AreaUse, SummedBox};
 use super::smoothing::Smoothing;
+use super::tie::Tie;
 use crate::color::ResolveSpace;
 use crate::texture::Wrap;
 
@@ -660,6 +661,9 @@ pub struct Missed {
     pub shown: Option<f64>,
     /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
     pub width: f64,
+    /// The samples that lie exactly on its edge.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ties: Vec<Tie>,
 }
 
 /// A sample that is a triangle's by the standard rules, and by the float rules is not: what lies below shows.

@@ -434,6 +434,7 @@ impl Explanation {
             } else {
                 "no sample"
             };
+            let what = what.to_owned() + &self.tie_words(missed);
             format!("{stroke}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}{shown}")
         };
         self.missed.iter().map(line).collect()

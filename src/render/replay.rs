@@ -40,7 +40,7 @@ pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
 }
 
 /// The contours of a polygon in screen space.
-fn placed<'p>(
+pub(super) fn placed<'p>(
     polygon: &'p Polygon,
     screen: &'p Screen<'_>,
 ) -> impl Iterator<Item = impl Iterator<Item = DVec2> + use<'p>> + use<'p> {
@@ -180,10 +180,10 @@ pub struct MissedPrimitive {
 /// Looks at single primitives from one pixel: builds them anew, with all that a display list of many drops.
 #[derive(Debug)]
 pub struct Explainer<'a> {
-    subject: Subject<'a>,
-    context: ListContext,
+    pub(super) subject: Subject<'a>,
+    pub(super) context: ListContext,
     raster: RasterSettings,
-    pixel: [u32; 2],
+    pub(super) pixel: [u32; 2],
 }
 
 impl<'a> Explainer<'a> {
@@ -232,7 +232,7 @@ impl<'a> Explainer<'a> {
     }
 
     /// The display list of a single primitive, and its parts, near the pixel or not.
-    fn all_pieces_of(&self, primitive: &Primitive) -> (DisplayList<'a>, Vec<Piece>) {
+    pub(super) fn all_pieces_of(&self, primitive: &Primitive) -> (DisplayList<'a>, Vec<Piece>) {
         let chunk = |primitive: &Primitive| {
             let mut builder = ChunkBuilder::new(&self.context, 1).with_all_shapes();
             builder.set_source(number(0));
@@ -277,7 +277,7 @@ impl<'a> Explainer<'a> {
         open.into_iter().flatten().collect()
     }
 
-    fn screen(&self) -> Screen<'_> {
+    pub(super) fn screen(&self) -> Screen<'_> {
         Screen::new(self.subject.view, self.subject.settings, self.context.size)
     }
 

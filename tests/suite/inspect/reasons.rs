@@ -363,3 +363,81 @@ fn a_shape_beside_another_of_its_colour_is_not_blamed() {
     let alone = hints(r#"<rect x="2" y="2" width="6.6" height="16"/>"#, &at_rate(1), [8, 5]);
     assert!(alone.contains("covers 100 % of the pixel; by area, 60 %"), "{alone}");
 }
+
+#[test]
+fn the_only_sample_on_an_edge_is_given_away_by_the_top_left_rule() {
+    let by_rule = "and is the neighbour's by the top-left rule";
+    for (body, pixel, told) in [
+        // Each orientation of an edge that is not owned.
+        (
+            r#"<rect x="1" y="1" width="7.5" height="9"/>"#,
+            [8, 5],
+            format!("covers 50 % of the pixel, and no sample: the only one lies exactly on its right edge, {by_rule}"),
+        ),
+        (
+            r#"<rect x="1" y="1" width="9" height="7.5"/>"#,
+            [5, 8],
+            format!("covers 50 % of the pixel, and no sample: the only one lies exactly on its bottom edge, {by_rule}"),
+        ),
+        (
+            r#"<rect x="1" y="1" width="7.5" height="7.5"/>"#,
+            [8, 8],
+            format!("covers 25 % of the pixel, and no sample: the only one lies exactly on its last corner, {by_rule}"),
+        ),
+        (
+            r#"<polygon points="0,0 20,0 0,20"/>"#,
+            [9, 10],
+            format!("covers 50 % of the pixel, and no sample: the only one lies exactly on its right edge, {by_rule}"),
+        ),
+        (
+            r#"<polygon points="0,20 0,0 20,0"/>"#,
+            [9, 10],
+            format!("covers 50 % of the pixel, and no sample: the only one lies exactly on its right edge, {by_rule}"),
+        ),
+        (
+            r#"<path d="M8.5 1V12H1V1Z M3 3V4H4V3Z" fill-rule="evenodd"/>"#,
+            [8, 5],
+            format!("covers 50 % of the pixel, and no sample: the only one lies exactly on its right edge, {by_rule}"),
+        ),
+        // Beside it, and on none.
+        (
+            r#"<rect x="1" y="1" width="7.49" height="9"/>"#,
+            [8, 5],
+            "covers 49 % of the pixel, and no sample".to_owned(),
+        ),
+    ] {
+        let missed = told_of(body, &at_rate(1), pixel).missed_lines().join("\n");
+        let told = format!(" {told}");
+        assert!(missed.contains(&told), "{body}: {missed}");
+        assert!(told.contains(':') || !missed.contains("exactly"), "{body}: {missed}");
+    }
+    // Edges that own their line have the sample.
+    for body in [
+        r#"<rect x="8.5" y="1" width="9" height="9"/>"#,
+        r#"<rect x="1" y="5.5" width="9" height="9"/>"#,
+        r#"<polygon points="20,0 20,20 -2,16"/>"#,
+    ] {
+        let told = told_of(body, &at_rate(1), [8, 5]);
+        assert!(!told.missed_lines().join("\n").contains("exactly"), "{body}");
+    }
+}
+
+#[test]
+fn samples_on_an_edge_are_told_by_the_rules_in_force() {
+    let body = r#"<rect x="1" y="1" width="7.25" height="9"/>"#;
+    let told = told_of(body, &at_rate(4), [8, 5]).missed_lines().join("\n");
+    assert!(
+        told.ends_with(
+            "and no sample: samples 1, 3 lie exactly on its right edge, and are the neighbours' by the top-left rule"
+        ),
+        "{told}"
+    );
+    let by = |rules| RenderSettings { rules, ..at_rate(4) };
+    let told = told_of(body, &by(Rules::Float), [8, 5]).missed_lines().join("\n");
+    assert!(
+        told.ends_with("on its right edge, and are nobody's: the float rules have none for ties"),
+        "{told}"
+    );
+    let told = told_of(body, &by(Rules::Course), [8, 5]);
+    assert!(told.missed.is_empty(), "every edge owns its line: {:?}", told.missed);
+}

@@ -146,7 +146,7 @@ fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
     assert_eq!(
         explanation.color,
         [r, g, b, a],
-        "the explanation at {pixel:?} is the frame's pixel"
+        "the explanation at {pixel:?} is the frame's pixel, under {settings:?}"
     );
     assert!(
         !explanation.text(Detail::Sample(0)).is_empty(),

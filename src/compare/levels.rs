@@ -249,7 +249,7 @@ mod tests {
         let levels = Pair::new(&a, &b).expect("one size").levels();
         let largest = Some(Largest { level: 255, at: [0, 0] });
         assert_eq!(levels.largest, [None, None, None, largest], "alpha alone");
-        assert_eq!(levels.squared_error(), 255 * 255 + 10 * 10 + 128 * 128, "of alpha");
+        assert_eq!(levels.squared, 255 * 255 + 10 * 10 + 128 * 128, "of alpha");
         assert_eq!(levels.beyond(10), 2, "pale white is nearly nothing");
     }
 

@@ -22,13 +22,12 @@ use glam::DVec2;
 use super::box_sums;
 use super::few_texels::FewTexels;
 use super::filter_plan::{PixelList, Plan};
-use super::fixed_point::REACH;
+use super::fixed_point::{REACH, WHOLE};
 use super::sample_places::{LANES, PixelPlaces, Places, ROUNDING, whole, whole_sum};
 use super::summed_area::SummedAreaTable;
 use super::texel_blocks::EndlessLevel;
 use super::{TexelBox, UvMap, Wrap};
 use crate::color::Premultiplied16;
-use crate::geometry::subpixel::WHOLE;
 
 /// A level read by a box.
 #[derive(Clone, Copy, Debug)]

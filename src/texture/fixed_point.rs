@@ -5,6 +5,8 @@
 
 use super::PixelSampling;
 
+/// Adding this to a number rounds it to a whole one, which stands in the lowest bits.
+pub(super) const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
 /// Fractional bits of a texel coordinate.
 pub(super) const FRACTION_BITS: u32 = 15;
 /// The sum of the weights of one sample. Fits a signed 16-bit number.

@@ -2,9 +2,8 @@
 
 use super::PixelSampling;
 use super::filter_plan::{Axis, GridLevel, Plan};
-use super::fixed_point::{MASS, MASS_BITS};
+use super::fixed_point::{MASS, MASS_BITS, WHOLE};
 use super::wrap::Endless;
-use crate::geometry::subpixel::WHOLE;
 
 /// The most samples along one side of a pixel.
 pub(super) const MAX_SIDE: usize = 16;

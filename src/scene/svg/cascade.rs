@@ -140,6 +140,11 @@ impl<'doc> Styled<'doc> {
         self.geometry.push((name, Cow::Owned(value)));
     }
 
+    /// Has the element painted so: its own look is ours, everything around it is the document's.
+    pub(super) fn paint(&mut self, look: impl IntoIterator<Item = (&'doc str, String)>) {
+        self.style.extend(look);
+    }
+
     /// Has the element not drawn, with all that is inside.
     pub(super) fn hide(&mut self) {
         self.style.push(("display", "none".to_owned()));

@@ -43,6 +43,16 @@ pub(super) fn number(path: &Path) -> Option<usize> {
     usize::try_from(u32::from_be_bytes([0, *red, *green, *blue])).ok()
 }
 
+/// What paints the path of the triangle with this number, whatever else is said of it.
+pub(super) fn look(number: usize) -> [(&'static str, String); 4] {
+    [
+        ("fill", format!("#{number:06x}!important")),
+        ("fill-opacity", format!("{MARK}!important")),
+        ("stroke", "none!important".to_owned()),
+        ("marker", "none!important".to_owned()),
+    ]
+}
+
 /// The names of elements that three corners can be drawn by.
 const SHAPES: [&str; 3] = ["path", "polygon", "polyline"];
 
@@ -96,10 +106,9 @@ impl Names {
         }
     }
 
-    /// Makes such an element of a triangle in `text`, by its number and the numbers of its corners. There are fewer triangles than
-    /// colours.
-    pub(super) fn disguise(self, text: &str, node: Node<'_, '_>, triangle: (usize, &[f32]), edits: &mut Edits) {
-        let (number, points) = triangle;
+    /// Makes such an element of a triangle in `text`, by the numbers of its corners; its style is to have its [`look`]. There are
+    /// fewer triangles than colours.
+    pub(super) fn disguise(self, text: &str, node: Node<'_, '_>, points: &[f32], edits: &mut Edits) {
         let name = node.tag_name().name();
         let other = self.get(name).unwrap_or(SHAPES[0]);
         let range = node.range();
@@ -112,7 +121,6 @@ impl Names {
             let name_at = tag + text[tag..range.end].rfind(name).unwrap_or(2);
             edits.replace(name_at..name_at + name.len(), other.to_owned());
         }
-        // It is always painted: its own look is ours, everything around it is the document's.
         let [a, b, c, d, e, f] = points.first_chunk::<6>().unwrap_or(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
         let (attribute, place) = match other {
             "path" => ("d", format!("M{a} {b}L{c} {d}L{e} {f}Z")),
@@ -122,13 +130,6 @@ impl Names {
             edits.replace(own.range(), String::new());
         }
         edits.insert(end, format!(" {attribute}=\"{place}\""));
-        let look = format!(
-            "fill:#{number:06x}!important;fill-opacity:{MARK}!important;stroke:none!important;marker:none!important;"
-        );
-        match node.attributes().find(|attribute| attribute.name() == "style") {
-            Some(style) => edits.insert(style.range_value().start, look),
-            None => edits.insert(end, format!(" style=\"{look}\"")),
-        }
     }
 }
 

@@ -230,12 +230,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.marks.put(node, self.name_end(node), &mut self.edits);
         self.pixelate(node);
         self.hide_nonsense(node);
+        if own_triangles::is_one(node) {
+            styled.paint(self.triangle(node));
+        }
         styled.write(self.text, node, self.name_end(node), &mut self.edits);
         mended::trim_numbers(self.text, node, &styled, &mut self.edits);
         mended::mend_filter(node, &self.elements, &mut self.edits);
         match name {
             "image" => self.image(node, heard),
-            "colortri" | "textri" => self.triangle(node),
             "use" if heard => self.used(node),
             "textPath" => {
                 let id = self.elements.outline(node.id().get_usize());
@@ -412,11 +414,13 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.images.push(node);
     }
 
-    /// The course's triangles become paths, which usvg brings to their places. What is wrong with one is told where it is painted.
-    fn triangle(&mut self, node: Node<'doc, 'doc>) {
+    /// The course's triangles become paths, which usvg brings to their places; how these are to be painted. What is wrong with one is told
+    /// where it is painted.
+    fn triangle(&mut self, node: Node<'doc, 'doc>) -> [(&'static str, String); 4] {
         let points = numbers::all("points", node.attribute("points").unwrap_or("")).unwrap_or_default();
         let number = self.elements.add_triangle(node);
-        self.names.disguise(self.text, node, (number, &points), &mut self.edits);
+        self.names.disguise(self.text, node, &points, &mut self.edits);
+        own_triangles::look(number)
     }
 
     /// Tells of a `use` of what is not there.

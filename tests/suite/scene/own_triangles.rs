@@ -91,7 +91,8 @@ fn what_is_wrong_with_a_triangle_is_told_once_however_often_it_is_shown() {
     let told = lines(&drawing(body));
     assert_eq!(told.len(), 2, "{told:?}");
     assert!(
-        told[0].ends_with("alpha in colors has no effect") && told[1].ends_with("points holds 4 numbers, not 6"),
+        told[0].ends_with("alpha in colors has no effect")
+            && told[1].ends_with("points holds 4 numbers; 6 are needed: x y for each corner"),
         "{told:?}"
     );
 }

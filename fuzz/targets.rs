@@ -123,17 +123,18 @@ fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
         frame
     };
     let mut frame = draw(settings);
-    // It is the picture that is explained, whatever the settings show instead.
+    // Of a visualisation no more is asked than that it is drawn: explanations are about colours.
+    let shown = &RenderSettings {
+        visualisation: Visualisation::Color,
+        ..*settings
+    };
     if settings.visualisation != Visualisation::Color {
-        frame = draw(&RenderSettings {
-            visualisation: Visualisation::Color,
-            ..*settings
-        });
+        frame = draw(shown);
     }
     let subject = Subject {
         scene,
         view: &view,
-        settings,
+        settings: shown,
     };
     let explanation = Explanation::advised(&Question {
         subject,
@@ -146,7 +147,7 @@ fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
     assert_eq!(
         explanation.color,
         [r, g, b, a],
-        "the explanation at {pixel:?} is the frame's pixel, under {settings:?}"
+        "the explanation at {pixel:?} is the frame's pixel, under {shown:?}"
     );
     assert!(
         !explanation.text(Detail::Sample(0)).is_empty(),

@@ -76,7 +76,8 @@ mod tests {
 
     #[test]
     fn places_come_largest_first_one_per_block() {
-        let a = Framebuffer::new(40, 20);
+        let mut a = Framebuffer::new(40, 20);
+        a.pixels_mut().fill(0xFF00_0000);
         let mut b = a.clone();
         for (x, y, pixel) in [
             (3, 2, 0x0000_0005),
@@ -86,7 +87,7 @@ mod tests {
             (16, 15, 0x0000_0900),
             (15, 17, 0x0000_0900),
         ] {
-            b.pixels_mut()[y * 40 + x] = pixel;
+            b.pixels_mut()[y * 40 + x] |= pixel;
         }
         let pair = Pair::new(&a, &b).expect("one size");
         let at: Vec<[u32; 2]> = pair.places(10).iter().map(|place| place.at).collect();

@@ -228,7 +228,7 @@ impl SpectrumAnalysis {
         let [across, down] = self.own.size().map(|side| near.abs() * f64::from(side));
         let [across, down] = [across, down].map(|reach| i64::from(whole(reach.min(64.0))));
         let places = (-down..=down).flat_map(|y| (-across..=across).map(move |x| [middle[0] + x, middle[1] + y]));
-        let known = places.filter(|[x, y]| self.own.orders(0).contains(x) && self.own.orders(1).contains(y));
+        let known = places.filter(|order| self.own.is_shown(*order));
         let strongest = known.max_by(|a, b| self.height(*a).total_cmp(&self.height(*b)));
         Some(self.reading(strongest.unwrap_or(middle)))
     }

@@ -178,8 +178,13 @@ impl Spectrum {
     )]
     pub(super) fn order(&self, frequency: [f64; 2]) -> Option<[i64; 2]> {
         let order = [0, 1].map(|axis| (frequency[axis] * f64::from(self.size[axis])).round() as i64);
+        (self.is_shown(order) && !self.waves.is_empty()).then_some(order)
+    }
+
+    /// Whether a number of periods is shown, by itself or, at the limit, by that which is the same wave.
+    pub(super) fn is_shown(&self, order: [i64; 2]) -> bool {
         let known = |axis: usize| order[axis].abs() <= i64::from(self.size[axis] * self.shown) / 2;
-        (known(0) && known(1) && !self.waves.is_empty()).then_some(order)
+        known(0) && known(1)
     }
 
     /// The place of a number of periods in `waves`, and of its mirror image; frequencies repeat beyond the highest.

@@ -3,12 +3,13 @@
 use rasterscope::inspect::{Explanation, Shape};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
-use rasterscope::scene::Scene;
 
 use crate::support::explaining::explained;
 use crate::support::scenes::{at_rate, gallery_scene};
 
-const SIZE: [u32; 2] = [160, 120];
+const SIZE: [u32; 2] = [1280, 800];
+/// On the diagonal of the scene's largest rect: its two triangles paint all samples together, and by different numbers.
+const PIXEL: [u32; 2] = [610, 429];
 
 fn by(rules: Rules, samples: u32) -> RenderSettings {
     RenderSettings {
@@ -26,25 +27,13 @@ fn painted(explanation: &Explanation, primitive: u32) -> Vec<usize> {
     triangles.map(|paint| paint.fragments.len()).collect()
 }
 
-/// A pixel on the diagonal of a rect: its two triangles paint all samples together, and by different numbers.
-fn on_a_diagonal(scene: &Scene, settings: &RenderSettings) -> ([u32; 2], Explanation) {
-    let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]));
-    let mut found = pixels.map(|pixel| (pixel, explained(scene, settings, SIZE, pixel)));
-    let is_on_diagonal = |(_, told): &([u32; 2], Explanation)| {
-        let [paint, _] = &told.paints[..] else { return false };
-        let painted = painted(told, paint.primitive);
-        let [one, other] = painted[..] else { return false };
-        one != other && one + other == told.samples.len()
-    };
-    found.find(is_on_diagonal).expect("a rect with a diagonal")
-}
-
 #[test]
 fn triangles_of_one_element_are_told_apart() {
     let scene = gallery_scene("basic/test4.svg");
-    let (pixel, few) = on_a_diagonal(&scene, &by(Rules::Float, 16));
-    let many = explained(&scene, &by(Rules::Float, 64), SIZE, pixel);
+    let few = explained(&scene, &by(Rules::Float, 16), SIZE, PIXEL);
+    let many = explained(&scene, &by(Rules::Float, 64), SIZE, PIXEL);
     let rect = few.paints[0].primitive;
+    assert_eq!(painted(&few, rect), [10, 6], "on the diagonal");
     let parts = painted(&few, rect).into_iter().zip(painted(&many, rect));
     let expected = parts.filter(|(few, many)| few * 4 != *many);
     let count = |samples: usize| u32::try_from(samples).ok();
@@ -64,8 +53,8 @@ fn triangles_of_one_element_are_told_apart() {
 #[test]
 fn element_in_pieces_is_compared_as_a_whole() {
     let scene = gallery_scene("basic/test4.svg");
-    let (pixel, pieces) = on_a_diagonal(&scene, &by(Rules::Float, 16));
-    let whole = explained(&scene, &by(Rules::Standard, 16), SIZE, pixel);
+    let pieces = explained(&scene, &by(Rules::Float, 16), SIZE, PIXEL);
+    let whole = explained(&scene, &by(Rules::Standard, 16), SIZE, PIXEL);
     for told in [pieces.differences(&whole), whole.differences(&pieces)] {
         assert!(
             !told.iter().any(|row| row.what.contains("covers")),

@@ -215,16 +215,27 @@ pub(super) fn arrows_in(ui: &Ui, control: &Response) -> Vec<Vec2> {
 /// What scrolls to the control that a key gave the focus since the last pass, where an area that scrolls hides a part of it: the
 /// request that screen readers make, as egui finds the area. A press of the mouse scrolls nothing away from below it.
 pub(super) fn scroll_to(ctx: &Context) -> Option<Event> {
-    let last = Id::unique("what had the focus in the last pass");
+    /// Passes that may ask for it: one may be discarded, and the next one places what the last one scrolled.
+    const TRIES: u8 = 4;
+    let wanted = Id::unique("what had the focus in the last pass, and how often it may ask");
     let id = ctx.memory(egui::Memory::focused);
-    let before = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<Option<Id>>(last), id));
-    let id = id.filter(|id| before != Some(*id))?;
+    let (before, tries) = ctx
+        .data(|data| data.get_temp::<(Option<Id>, u8)>(wanted))
+        .unwrap_or_default();
     let by_mouse = ctx.input(|input| input.pointer.any_down() || input.pointer.any_released());
-    let place = Place::of(ctx.read_response(id)?);
+    let tries = if by_mouse {
+        0
+    } else if before == id {
+        tries
+    } else {
+        TRIES
+    };
+    let place = id.and_then(|id| ctx.read_response(id)).map(Place::of);
     // Half a point is a matter of rounding.
-    if by_mouse || place.seen.expand(0.5).contains_rect(place.rect) {
-        return None;
-    }
+    let is_cut = place.is_some_and(|place| !place.seen.expand(0.5).contains_rect(place.rect));
+    let tries = if is_cut { tries } else { 0 };
+    ctx.data_mut(|data| data.insert_temp(wanted, (id, tries.saturating_sub(1))));
+    let id = id.filter(|_| tries > 0)?;
     ctx.request_repaint();
     Some(Event::AccessKitActionRequest(ActionRequest {
         action: Action::ScrollIntoView,

@@ -4,6 +4,7 @@
 
 mod area;
 pub mod clip;
+mod curve_steps;
 pub mod edge;
 pub mod float_edge;
 mod gradient;
@@ -17,6 +18,7 @@ mod view;
 mod width;
 
 pub use area::{area_in_pixel, cut_to_window};
+pub use curve_steps::Fineness;
 pub use gradient::{Circles, GradientShape, PlacedShape};
 pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;

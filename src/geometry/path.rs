@@ -1,12 +1,13 @@
 //! Paths of lines and curves: what a shape's outline is before it is flattened for a view.
 //!
 //! A path is filled, or its stroke is ([`Stroke`]). Both end as contours of straight edges that are as near to the curve as
-//! the view asks for ([`CurvedArea::flattened`]). Flattening and dashes are `kurbo`'s, outlines of strokes
+//! the view asks for ([`CurvedArea::flattened`]). Flattening by distance and dashes are `kurbo`'s, outlines of strokes
 //! [`super::stroke_outline`]'s.
 
 use glam::{DAffine2, DVec2};
 use kurbo::{BezPath, PathEl, PathSeg, Point};
 
+use super::curve_steps::{Fineness, Step, Walk, keep_area, leaving};
 use super::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 
 /// Longest path that has a stroke, in its widths: beyond, floats no longer tell its sides apart.
@@ -97,8 +98,79 @@ impl Path {
         !self.0.elements().iter().any(curved)
     }
 
+    /// Its contours with straight edges as near to the curves as is asked for.
+    fn contours(&self, fineness: Fineness) -> Vec<Vec<DVec2>> {
+        match fineness {
+            Fineness::Distance(most) => self.contours_near(most),
+            Fineness::Area { .. } => self.contours_of_same_area(fineness),
+        }
+    }
+
+    /// Its contours with straight edges that enclose what the curves enclose.
+    fn contours_of_same_area(&self, fineness: Fineness) -> Vec<Vec<DVec2>> {
+        let (mut contours, mut contour) = (Vec::new(), Vec::new());
+        let (mut tangents, mut areas) = (Vec::new(), Vec::new());
+        let mut start = DVec2::ZERO;
+        for element in self.0.elements() {
+            let at = contour.last().copied().unwrap_or(start);
+            let curve = match *element {
+                PathEl::MoveTo(to) => {
+                    contours.push(std::mem::take(&mut contour));
+                    start = vector(to);
+                    contour.push(start);
+                    continue;
+                }
+                PathEl::ClosePath => {
+                    contours.push(std::mem::take(&mut contour));
+                    continue;
+                }
+                PathEl::LineTo(to) => {
+                    if contour.is_empty() {
+                        contour.push(start);
+                    }
+                    contour.push(vector(to));
+                    continue;
+                }
+                PathEl::QuadTo(control, to) => {
+                    let [control, to] = [control, to].map(vector);
+                    [at, at.lerp(control, 2.0 / 3.0), to.lerp(control, 2.0 / 3.0), to]
+                }
+                PathEl::CurveTo(first, second, to) => [at, vector(first), vector(second), vector(to)],
+            };
+            let Some(tangent) = leaving(curve) else {
+                continue;
+            };
+            if contour.is_empty() {
+                contour.push(start);
+            }
+            let begin = contour.len() - 1;
+            tangents.clear();
+            tangents.push(tangent);
+            let mut walk = Walk {
+                fineness,
+                half: 0.0,
+                at,
+                tangent,
+                visit: |step| {
+                    let (to, tangent) = match step {
+                        Step::To(to, tangent)
+                        | Step::Cusp {
+                            to, direction: tangent, ..
+                        } => (to, tangent),
+                    };
+                    contour.push(to);
+                    tangents.push(tangent);
+                },
+            };
+            walk.along(curve);
+            keep_area(&mut contour[begin..], &tangents, &mut areas);
+        }
+        contours.push(contour);
+        contours
+    }
+
     /// Its contours with straight edges that are nowhere further than `tolerance` from the curves.
-    fn contours(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
+    fn contours_near(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
         let mut contours: Vec<Vec<DVec2>> = Vec::new();
         kurbo::flatten(&self.0, tolerance, |element| match element {
             PathEl::MoveTo(to) => contours.push(vec![DVec2::new(to.x, to.y)]),
@@ -121,19 +193,17 @@ impl CurvedArea {
         self.path.is_straight() && !self.stroke.as_ref().is_some_and(round)
     }
 
-    /// Closed contours in user space whose edges are nowhere further than `tolerance` canvas units from the area's border; a
-    /// stroke's are to be filled by the non-zero rule.
-    pub fn flattened(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
+    /// Closed contours in user space whose edges are as near to the area's border as is asked for in canvas units; a stroke's
+    /// are to be filled by the non-zero rule.
+    pub fn flattened(&self, fineness: Fineness) -> Vec<Vec<DVec2>> {
         let matrix = self.to_user.matrix2;
         let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
-        let own = tolerance / stretch;
-        if own.is_nan() || own <= 0.0 {
+        let own = fineness.scaled(stretch.recip(), matrix.determinant().abs().recip());
+        if !own.is_valid() {
             return Vec::new();
         }
-        // Points grow with the square root of the tolerance, so that this one leaves few enough.
-        let coarser = (self.points_at(own) / MAX_POINTS).max(1.0).powi(2);
-        let own = own * coarser;
-        if !own.is_finite() {
+        let own = own.with_fewer_steps((self.points_at(own) / MAX_POINTS).max(1.0));
+        if !own.is_valid() {
             return Vec::new();
         }
         let mut contours = match &self.stroke {
@@ -146,15 +216,15 @@ impl CurvedArea {
         contours
     }
 
-    /// About how many points the contours have at a tolerance in the path's own units; rather too many than too few.
-    fn points_at(&self, tolerance: f64) -> f64 {
+    /// About how many points the contours have at a fineness in the path's own units; rather too many than too few.
+    fn points_at(&self, fineness: Fineness) -> f64 {
         let segments = self.path.segments() as f64;
         let sum = |each: &dyn Fn(PathSeg) -> f64| self.path.0.segments().map(each).sum::<f64>();
-        let curves = sum(&|segment| points_of(&segment, tolerance));
+        let curves = sum(&|segment| points_of(&segment, fineness));
         let Some(stroke) = &self.stroke else {
             return segments + curves;
         };
-        let half_circle = stroke_outline::edges_of_half_circle(tolerance / stroke.style.width);
+        let half_circle = stroke_outline::edges_of_half_circle(fineness.in_units(stroke.style.width));
         let round = stroke.style.cap == LineCap::Round || stroke.style.join == LineJoin::Round;
         // A half circle at each end and corner.
         let arc = if round { half_circle } else { 0.0 };
@@ -183,7 +253,7 @@ impl Stroke {
     }
 
     /// Contours of the stroke in the path's own coordinates.
-    fn outline(&self, path: &Path, tolerance: f64) -> Vec<Vec<DVec2>> {
+    fn outline(&self, path: &Path, fineness: Fineness) -> Vec<Vec<DVec2>> {
         let width = self.style.width;
         let Some(origin) = path.0.elements().first().and_then(PathEl::end_point) else {
             return Vec::new();
@@ -201,21 +271,21 @@ impl Stroke {
         {
             return Vec::new();
         }
-        let tolerance = (tolerance / width).clamp(1e-9, 0.25);
+        let fineness = fineness.in_units(width).between(1e-9, 0.25);
         let mut contours = Vec::new();
         let mut lines = BezPath::new();
         for subpath in subpaths(&path_in_widths) {
             match dot(subpath) {
-                Some(center) => contours.extend(self.dot(center, tolerance)),
+                Some(center) => contours.extend(self.dot(center, fineness)),
                 None => lines.extend(subpath.iter().copied()),
             }
         }
         match self.dashes_in_widths(path) {
             Some((offset, pattern)) => {
                 let dashes = kurbo::dash(lines.into_iter(), offset, &pattern);
-                stroke_outline::append(dashes, &self.style, tolerance, &mut contours);
+                stroke_outline::append(dashes, &self.style, fineness, &mut contours);
             }
-            None => stroke_outline::append(lines, &self.style, tolerance, &mut contours),
+            None => stroke_outline::append(lines, &self.style, fineness, &mut contours),
         }
         for point in contours.iter_mut().flatten() {
             *point = DVec2::new(origin.x, origin.y) + *point * width;
@@ -241,26 +311,34 @@ impl Stroke {
     }
 
     /// A subpath without length, in widths.
-    fn dot(&self, center: Point, tolerance: f64) -> Option<Vec<DVec2>> {
+    fn dot(&self, center: Point, fineness: Fineness) -> Option<Vec<DVec2>> {
         let center = DVec2::new(center.x, center.y);
         match self.style.cap {
             LineCap::Butt => None,
             LineCap::Square => Some(stroke_outline::square_dot(center)),
-            LineCap::Round => Some(stroke_outline::round_dot(center, tolerance)),
+            LineCap::Round => Some(stroke_outline::round_dot(center, fineness)),
         }
     }
 }
 
-/// About how many points a segment needs so that edges are within a tolerance: the error of one edge falls with the square of
-/// its length, and is an eighth of the curve's second derivative at first.
-fn points_of(segment: &PathSeg, tolerance: f64) -> f64 {
+/// About how many points a segment needs, rather too many than too few: the error of one edge falls with the square of its
+/// length, and is an eighth of the curve's second derivative at first.
+fn points_of(segment: &PathSeg, fineness: Fineness) -> f64 {
     let bend = |a: Point, b: Point, c: Point| (a.to_vec2() - 2.0 * b.to_vec2() + c.to_vec2()).hypot();
     let second = match segment {
         PathSeg::Line(_) => return 0.0,
         PathSeg::Quad(curve) => 2.0 * bend(curve.p0, curve.p1, curve.p2),
         PathSeg::Cubic(curve) => 6.0 * bend(curve.p0, curve.p1, curve.p2).max(bend(curve.p1, curve.p2, curve.p3)),
     };
-    (second / (8.0 * tolerance)).sqrt().ceil()
+    let by_distance = |most: f64| (second / (8.0 * most)).sqrt();
+    match fineness {
+        Fineness::Distance(most) => by_distance(most).ceil(),
+        // No derivative is longer than three times all legs.
+        Fineness::Area { area, distance } => {
+            let by_area = (3.0 * control_length(segment) * second / (8.0 * area)).cbrt();
+            by_area.min(by_distance(distance)).ceil() + 1.0
+        }
+    }
 }
 
 /// By how much a segment turns at most, in half circles.
@@ -304,6 +382,10 @@ fn dot(subpath: &[PathEl]) -> Option<Point> {
         PathEl::ClosePath => true,
     };
     subpath.iter().all(stays).then_some(start)
+}
+
+fn vector(at: Point) -> DVec2 {
+    DVec2::new(at.x, at.y)
 }
 
 fn point(at: DVec2) -> Point {
@@ -359,7 +441,7 @@ mod tests {
     };
 
     fn measured(area: &CurvedArea, tolerance: f64) -> f64 {
-        let triangles = triangulate(&area.flattened(tolerance), FillRule::NonZero);
+        let triangles = triangulate(&area.flattened(Fineness::Distance(tolerance)), FillRule::NonZero);
         triangles
             .iter()
             .map(|[a, b, c]| (b - a).perp_dot(c - a).abs() / 2.0)
@@ -426,7 +508,7 @@ mod tests {
                     [radius - 1.0, radius + 1.0],
                 ),
             ] {
-                let contours = area.flattened(tolerance);
+                let contours = area.flattened(Fineness::Distance(tolerance));
                 for contour in &contours {
                     for (i, to) in contour.iter().enumerate() {
                         let from = contour[(i + contour.len() - 1) % contour.len()];
@@ -454,7 +536,7 @@ mod tests {
                         join: LineJoin::Round,
                         miter_limit: 1e30,
                     };
-                    let contours = stroked(path, style, dashes).flattened(0.01);
+                    let contours = stroked(path, style, dashes).flattened(Fineness::Distance(0.01));
                     let count: usize = contours.iter().map(Vec::len).sum();
                     assert!(count as f64 <= 2.0 * MAX_POINTS, "{count} points at {scale}, {width}");
                 }
@@ -464,7 +546,7 @@ mod tests {
         far.move_to(DVec2::ZERO);
         far.cubic_to([DVec2::splat(1e30), DVec2::new(-1e30, 1e30)], DVec2::new(1e30, 0.0));
         for area in [filled(far.clone()), stroked(far, STYLE, &[])] {
-            let count: usize = area.flattened(1e-6).iter().map(Vec::len).sum();
+            let count: usize = area.flattened(Fineness::Distance(1e-6)).iter().map(Vec::len).sum();
             assert!(
                 count as f64 <= 2.0 * MAX_POINTS,
                 "{count} points of a curve without end"

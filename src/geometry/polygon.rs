@@ -7,13 +7,20 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::{DAffine2, DVec2};
 
-use super::{CurvedArea, FillRule, estimate_crossings, triangulate};
+use super::{CurvedArea, FillRule, Fineness, estimate_crossings, triangulate};
 
 /// Most crossings of edges, as estimated, of contours that are cut into triangles.
 const MAX_CROSSINGS: usize = 200_000;
 
 /// How far an edge may be from the curve that it stands for, in distances between samples.
 const TOLERANCE: f64 = 0.1;
+
+/// Where areas count, the most of an edge's length times its distance from its curve, in pixels: a third of it is less than a tenth
+/// of a level of a byte.
+const AREA_TOLERANCE: f64 = 8e-4;
+
+/// How near to its curve an edge may be however long it is, in pixels: two thirds of that along a pixel's diagonal.
+const AREA_DISTANCE: f64 = 4e-4;
 
 /// How often the scale for which a curve is flattened is doubled at most.
 const MAX_DOUBLINGS: u32 = 24;
@@ -41,9 +48,14 @@ struct Curves {
     area: CurvedArea,
     /// Samples per canvas unit for which the contours are fine enough.
     scale: f64,
-    /// How often that scale was doubled last, and the contours for it.
-    finer: Mutex<Option<(u32, Arc<Polygon>)>>,
+    /// Those of last time.
+    finer: Mutex<Option<Finer>>,
+    /// The same of edges that enclose the areas of the curves.
+    same_area: Mutex<Option<Finer>>,
 }
+
+/// The step of scales, and the contours for it.
+type Finer = (i32, Arc<Polygon>);
 
 impl Polygon {
     /// Contours that close themselves; those of fewer than three points enclose nothing and are left out.
@@ -81,12 +93,13 @@ impl Polygon {
     pub fn curved(area: CurvedArea, rule: FillRule, scale: f64) -> Self {
         let is_stroke = area.stroke.is_some();
         let rule = if is_stroke { FillRule::NonZero } else { rule };
-        let flat = Self::new(area.flattened(TOLERANCE / scale), rule);
+        let flat = Self::new(area.flattened(Fineness::Distance(TOLERANCE / scale)), rule);
         let curves = (!area.is_straight()).then(|| {
             Box::new(Curves {
                 area,
                 scale,
                 finer: Mutex::new(None),
+                same_area: Mutex::new(None),
             })
         });
         // Curves bulge a little beyond the edges that stand for them.
@@ -107,16 +120,35 @@ impl Polygon {
     pub fn at_scale(&self, scale: f64) -> Option<Arc<Self>> {
         let curves = self.curves.as_ref()?;
         let doublings = doublings(scale / curves.scale)?;
-        let mut finer = curves.finer.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((found, polygon)) = finer.as_ref()
-            && *found == doublings
-        {
-            return Some(Arc::clone(polygon));
-        }
         let tolerance = TOLERANCE / (curves.scale * f64::from(1_u32 << doublings));
-        let polygon = Arc::new(Self::new(curves.area.flattened(tolerance), self.rule));
-        *finer = Some((doublings, Arc::clone(&polygon)));
-        Some(polygon)
+        let step = doublings.cast_signed();
+        Some(self.finer(&curves.finer, step, Fineness::Distance(tolerance)))
+    }
+
+    /// The same area with edges for a view of so many pixels per canvas unit where areas count: what one curve covers of a pixel is
+    /// less than a tenth of a level off. `None` where all edges are straight.
+    pub fn of_same_area(&self, scale: f64) -> Option<Arc<Self>> {
+        let curves = self.curves.as_ref()?;
+        let step = half_octaves(scale);
+        let scale = (f64::from(step) / 2.0).exp2();
+        let fineness = Fineness::Area {
+            area: AREA_TOLERANCE / (scale * scale),
+            distance: AREA_DISTANCE / scale,
+        };
+        Some(self.finer(&curves.same_area, step, fineness))
+    }
+
+    fn finer(&self, last: &Mutex<Option<Finer>>, step: i32, fineness: Fineness) -> Arc<Self> {
+        let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((found, polygon)) = last.as_ref()
+            && *found == step
+        {
+            return Arc::clone(polygon);
+        }
+        let contours = self.curves().map(|area| area.flattened(fineness)).unwrap_or_default();
+        let polygon = Arc::new(Self::new(contours, self.rule));
+        *last = Some((step, Arc::clone(&polygon)));
+        polygon
     }
 
     /// The same polygon moved by some canvas units.
@@ -200,6 +232,12 @@ impl Polygon {
     }
 }
 
+/// The least step of scales, two to an octave, that is not below one; far from any that is met, one of those.
+#[expect(clippy::cast_possible_truncation, reason = "clamped")]
+fn half_octaves(scale: f64) -> i32 {
+    (2.0 * scale.log2()).ceil().clamp(-100.0, 100.0) as i32
+}
+
 /// How often 1 must be doubled to be at least `factor`; `None` for not at all.
 fn doublings(factor: f64) -> Option<u32> {
     (1..=MAX_DOUBLINGS)
@@ -228,7 +266,7 @@ impl FillRule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Path;
+    use crate::geometry::{LineCap, LineJoin, Path, Stroke, StrokeStyle, cut_to_window};
 
     fn square(side: f64) -> Vec<DVec2> {
         [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
@@ -279,6 +317,57 @@ mod tests {
         assert!(error(&polygon.at_scale(1e4).expect("finer")) < 1e-2, "nearly exact");
         assert!(error(&polygon) < 15.0, "a tenth of a unit along its edge");
         assert!(polygon.at_scale(f64::INFINITY).is_some(), "as fine as it gets");
+    }
+
+    /// Fills and strokes of random curves, in random pixels that they pass through, some of them several times.
+    #[test]
+    fn edges_of_the_same_area_err_by_less_than_a_quarter_of_a_level() {
+        let (mut worst, mut count) = (0.0_f64, 0);
+        arbtest::arbtest(|u| {
+            let reach = *u.choose(&[1.0, 4.0, 30.0])?;
+            let mut place = || {
+                let mut part = || Ok::<_, arbtest::arbitrary::Error>(f64::from(u.int_in_range(-1000..=1000)?) / 1000.0);
+                Ok::<_, arbtest::arbitrary::Error>(reach * DVec2::new(part()?, part()?))
+            };
+            let mut path = Path::default();
+            path.move_to(place()?);
+            path.cubic_to([place()?, place()?], place()?);
+            path.quad_to(place()?, place()?);
+            path.close();
+            let style = StrokeStyle {
+                width: 0.25 * reach,
+                cap: LineCap::Round,
+                join: LineJoin::Round,
+                miter_limit: 4.0,
+            };
+            let stroke = Stroke {
+                style,
+                dashes: Vec::new(),
+                dash_offset: 0.0,
+            };
+            let area = CurvedArea {
+                path,
+                stroke: u.arbitrary::<bool>()?.then_some(stroke),
+                to_user: DAffine2::IDENTITY,
+            };
+            let exact = Polygon::new(area.flattened(Fineness::Distance(2e-5)), FillRule::NonZero);
+            let polygon = Polygon::curved(area, FillRule::NonZero, 1.0);
+            let same_area = polygon.of_same_area(1.0).expect("curves");
+            for _ in 0..4 {
+                let corner = u.choose(exact.points())?.floor();
+                let covered = |polygon: &Polygon| {
+                    let contours = polygon.contours().map(|contour| contour.iter().copied());
+                    cut_to_window(contours, polygon.rule(), [corner, corner + 1.0]).area()
+                };
+                if let (Some(found), Some(expected)) = (covered(&same_area), covered(&exact)) {
+                    worst = worst.max((found - expected).abs());
+                    count += 1;
+                }
+            }
+            Ok(())
+        })
+        .size_min(1024);
+        assert!(count > 20 && worst < 0.25 / 255.0, "{worst} of {count} pixels");
     }
 
     #[test]

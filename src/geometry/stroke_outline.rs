@@ -15,38 +15,25 @@
 //! sweeps, also where a curve is tighter than the line is wide. There the inner offset curve runs backwards: that part of it
 //! becomes a triangle of its own.
 //!
-//! Where to cut: an edge that turns by a small angle θ is θ²/8 times the radius away from the arc that it stands for, so the
-//! steps are made equal in ∫ √((R + w/2) / 8ε) dθ, with the radius of curvature R, the width w and the tolerance ε. Levien
-//! and Uguray, "GPU-friendly Stroke Expansion" (2024), has the same error for circular arcs.
+//! [`Walk`] says where to cut.
 
 use glam::DVec2;
 use kurbo::{PathEl, Point};
 
+use super::curve_steps::{Fineness, Step, Walk, keep_area, leaving, whole_steps};
 use super::{LineCap, LineJoin, StrokeStyle};
 
-/// A curve is halved until no corner of its control polygon turns by more than half a radian: the cosine of that.
-const GENTLE: f64 = 0.877_582_561_890_372_8;
-
-/// How far an edge may be from its arc, in tolerances, before it is split: the steps that are planned differ by less.
-const MOST_DEPARTURE: f64 = 1.25;
-
-/// How often a step along a gentle curve is halved.
-const MOST_SPLITS: u32 = 12;
-
-/// How often a curve is halved. What still turns by more than half a radian then is a cusp.
-const MOST_HALVINGS: u32 = 16;
-
-/// Appends the contours of a stroke that is one unit wide, to be filled by the non-zero rule. No edge is further than about
-/// `tolerance` from the area's border. `elements` are a path without dashes; `style.width` is not read.
+/// Appends the contours of a stroke that is one unit wide, to be filled by the non-zero rule. Edges are about as near to
+/// the area's border as `fineness` says. `elements` are a path without dashes; `style.width` is not read.
 pub(super) fn append(
     elements: impl IntoIterator<Item = PathEl>,
     style: &StrokeStyle,
-    tolerance: f64,
+    fineness: Fineness,
     contours: &mut Vec<Vec<DVec2>>,
 ) {
     let mut pen = Pen {
         style: *style,
-        tolerance,
+        fineness,
         contours,
         sides: [Vec::new(), Vec::new()],
         start: DVec2::ZERO,
@@ -54,6 +41,9 @@ pub(super) fn append(
         at: DVec2::ZERO,
         tangent: DVec2::X,
         line: 0.0,
+        chains: [Chain::default(); 2],
+        tangents: Vec::new(),
+        areas: Vec::new(),
     };
     for element in elements {
         match element {
@@ -75,10 +65,10 @@ pub(super) fn append(
 }
 
 /// The outline of a dot: a circle of one unit's diameter.
-pub(super) fn round_dot(center: DVec2, tolerance: f64) -> Vec<DVec2> {
+pub(super) fn round_dot(center: DVec2, fineness: Fineness) -> Vec<DVec2> {
     let right = DVec2::new(HALF, 0.0);
     let mut points = vec![center + right];
-    arc(center, right, -std::f64::consts::TAU, tolerance, &mut points);
+    arc(center, right, -std::f64::consts::TAU, fineness, &mut points);
     points
 }
 
@@ -89,8 +79,8 @@ pub(super) fn square_dot(center: DVec2) -> Vec<DVec2> {
 }
 
 /// About how many edges half a circle has.
-pub(super) fn edges_of_half_circle(tolerance: f64) -> f64 {
-    (std::f64::consts::PI / arc_step(tolerance)).ceil()
+pub(super) fn edges_of_half_circle(fineness: Fineness) -> f64 {
+    (std::f64::consts::PI / arc_step(fineness)).ceil()
 }
 
 /// Half the width.
@@ -99,7 +89,7 @@ const HALF: f64 = 0.5;
 /// Goes along a subpath and leaves the vertices of both sides behind.
 struct Pen<'a> {
     style: StrokeStyle,
-    tolerance: f64,
+    fineness: Fineness,
     contours: &'a mut Vec<Vec<DVec2>>,
     /// Of the subpath so far: on the side of the normals, and on the other.
     sides: [Vec<DVec2>; 2],
@@ -113,6 +103,18 @@ struct Pen<'a> {
     tangent: DVec2,
     /// How long the line is on which it came, zero for a curve.
     line: f64,
+    /// Where the vertices begin that stand for the curve at work, on both sides.
+    chains: [Chain; 2],
+    /// Those of the curve at work at its vertices.
+    tangents: Vec<DVec2>,
+    areas: Vec<f64>,
+}
+
+/// Where vertices begin that stand for a curve, and its tangents there.
+#[derive(Clone, Copy, Default)]
+struct Chain {
+    vertex: usize,
+    tangent: usize,
 }
 
 /// How a piece of a path begins.
@@ -141,102 +143,57 @@ impl Pen<'_> {
     }
 
     fn curve(&mut self, curve: [DVec2; 4]) {
-        let [from, first, second, to] = curve;
-        let leaving = [first, second, to]
-            .into_iter()
-            .find_map(|next| (next - from).try_normalize());
-        let Some(tangent) = leaving else {
+        let Some(tangent) = leaving(curve) else {
             return;
         };
         self.begin_piece(Piece { tangent, line: 0.0 }, self.style.join);
         self.line = 0.0;
-        self.curve_part(curve, MOST_HALVINGS);
+        self.begin_chains(tangent);
+        let mut walk = Walk {
+            fineness: self.fineness,
+            half: HALF,
+            at: self.at,
+            tangent,
+            visit: |step| match step {
+                Step::To(point, tangent) => self.advance(point, tangent),
+                // The line turns on the spot.
+                Step::Cusp { chord, to, direction } => {
+                    let turn = |tangent| Piece { tangent, line: 0.0 };
+                    self.end_chains();
+                    self.begin_piece(turn(chord), LineJoin::Round);
+                    self.advance(to, chord);
+                    self.begin_piece(turn(direction), LineJoin::Round);
+                    self.begin_chains(direction);
+                }
+            },
+        };
+        walk.along(curve);
+        self.end_chains();
         // Rounding in the halves does not move the end.
-        self.at = to;
+        self.at = curve[3];
     }
 
-    /// Goes along a curve whose first tangent is already the pen's.
-    fn curve_part(&mut self, curve: [DVec2; 4], halvings: u32) {
-        let [from, first, second, to] = curve;
-        let legs = [first - from, second - first, to - second].map(DVec2::try_normalize);
-        let (mut direction, mut is_gentle) = (self.tangent, true);
-        for next in legs.into_iter().flatten() {
-            is_gentle &= direction.dot(next) >= GENTLE;
-            direction = next;
-        }
-        if is_gentle {
-            self.gentle_curve(curve, direction);
-        } else if halvings > 0 {
-            let [front, back] = halves(curve);
-            self.curve_part(front, halvings - 1);
-            self.curve_part(back, halvings - 1);
-        } else {
-            // A cusp: the line turns on the spot.
-            let chord = (to - from).try_normalize().unwrap_or(direction);
-            self.begin_piece(
-                Piece {
-                    tangent: chord,
-                    line: 0.0,
-                },
-                LineJoin::Round,
-            );
-            self.advance(to, chord);
-            self.begin_piece(
-                Piece {
-                    tangent: direction,
-                    line: 0.0,
-                },
-                LineJoin::Round,
-            );
-        }
+    /// Begins vertices of both sides that stand for curves.
+    fn begin_chains(&mut self, tangent: DVec2) {
+        self.tangents.clear();
+        self.tangents.push(tangent);
+        self.chains = self.sides.each_ref().map(|side| Chain {
+            vertex: side.len() - 1,
+            tangent: 0,
+        });
     }
 
-    /// Goes along a curve that turns by little, and ends in a direction.
-    fn gentle_curve(&mut self, curve: [DVec2; 4], end: DVec2) {
-        // Not the very ends, where a curve may stand still.
-        let densities = [1.0 / 64.0, 0.5, 63.0 / 64.0].map(|t| step_density(curve, t, self.tolerance));
-        let [front, back] = [
-            f64::midpoint(densities[0], densities[1]) / 2.0,
-            f64::midpoint(densities[1], densities[2]) / 2.0,
-        ];
-        let steps = whole_steps(front + back);
-        let mut from = 0.0;
-        for step in 1..steps {
-            let done = (front + back) * f64::from(step) / f64::from(steps);
-            let t = if done < front {
-                0.5 * share_of_trapezoid(densities[0], densities[1], done / front)
-            } else {
-                0.5 + 0.5 * share_of_trapezoid(densities[1], densities[2], (done - front) / back)
-            };
-            if let Some(tangent) = derivative(curve, t).try_normalize() {
-                self.steps_to(curve, [from, t], (point_at(curve, t), tangent), MOST_SPLITS);
-                from = t;
+    /// Ends them.
+    fn end_chains(&mut self) {
+        if self.fineness.keeps_area() {
+            for (side, chain) in self.sides.iter_mut().zip(self.chains) {
+                keep_area(
+                    &mut side[chain.vertex..],
+                    &self.tangents[chain.tangent..],
+                    &mut self.areas,
+                );
             }
         }
-        self.steps_to(curve, [from, 1.0], (curve[3], end), MOST_SPLITS);
-    }
-
-    /// One edge along a part of a curve, up to a point whose tangent is given, or more where the curve turns within it: three
-    /// densities do not show a bend that is much shorter than the curve.
-    fn steps_to(&mut self, curve: [DVec2; 4], [from, to]: [f64; 2], (point, tangent): (DVec2, DVec2), splits: u32) {
-        if splits > 0 && self.departure(point, tangent) > MOST_DEPARTURE * self.tolerance {
-            let middle = f64::midpoint(from, to);
-            if let Some(tangent) = derivative(curve, middle).try_normalize() {
-                self.steps_to(curve, [from, middle], (point_at(curve, middle), tangent), splits - 1);
-                self.steps_to(curve, [middle, to], (point, tangent), splits - 1);
-                return;
-            }
-        }
-        self.advance(point, tangent);
-    }
-
-    /// How far the outer of two edges to a point is from its arc, if the path goes there in an arc.
-    fn departure(&self, to: DVec2, tangent: DVec2) -> f64 {
-        // (R + 1/2) (1 - cos θ/2), with the chord 2 R sin θ/2.
-        let cosine = self.tangent.dot(tangent).clamp(-1.0, 1.0);
-        let half = (f64::midpoint(1.0, cosine)).sqrt();
-        let chord = self.at.distance(to);
-        HALF * (1.0 - half) + 0.5 * chord * ((1.0 - half) / (1.0 + half)).sqrt()
     }
 
     /// Lets the outline turn to the direction of the next piece, or begins it.
@@ -255,7 +212,7 @@ impl Pen<'_> {
     /// One edge on both sides, to a point whose tangent is given.
     fn advance(&mut self, to: DVec2, tangent: DVec2) {
         let chord = to - self.at;
-        for (side, sign) in self.sides.iter_mut().zip(SIGNS) {
+        for ((side, chain), sign) in self.sides.iter_mut().zip(&mut self.chains).zip(SIGNS) {
             let [before, after] =
                 [(self.at, self.tangent), (to, tangent)].map(|(at, tangent)| at + sign * HALF * tangent.perp());
             if (after - before).dot(chord) < 0.0 {
@@ -263,8 +220,19 @@ impl Pen<'_> {
                 let along = chord.perp_dot(tangent.perp()) / self.tangent.perp().perp_dot(tangent.perp());
                 let crossing = self.at + along * self.tangent.perp();
                 if along.is_finite() && along.abs() <= HALF {
+                    if self.fineness.keeps_area() {
+                        keep_area(
+                            &mut side[chain.vertex..],
+                            &self.tangents[chain.tangent..],
+                            &mut self.areas,
+                        );
+                        *chain = Chain {
+                            vertex: side.len() + 1,
+                            tangent: self.tangents.len(),
+                        };
+                    }
                     side.push(crossing);
-                    if before.distance(after) > self.tolerance / 2.0 {
+                    if before.distance(after) > self.fineness.least_length() {
                         self.contours.push(turning_like_outlines([crossing, before, after]));
                     }
                 }
@@ -273,6 +241,7 @@ impl Pen<'_> {
         }
         self.at = to;
         self.tangent = tangent;
+        self.tangents.push(tangent);
     }
 
     /// Turns from the pen's tangent to that of the next piece.
@@ -282,8 +251,13 @@ impl Pen<'_> {
         // Where what a bevel would cut off is too small to matter, it is as if the path were smooth. Corners between lines are
         // the same at every tolerance, unless they are round.
         let is_between_lines = self.line > 0.0 && next.line > 0.0 && join != LineJoin::Round;
-        let least = if is_between_lines { 1e-12 } else { self.tolerance / 4.0 };
-        if HALF * (1.0 - cosine) <= least {
+        let cut_off = HALF * (1.0 - cosine);
+        let is_smooth = if is_between_lines {
+            cut_off <= 1e-12
+        } else {
+            self.fineness.neglects(cut_off, from.distance(to))
+        };
+        if is_smooth {
             return;
         }
         let inner = usize::from(sine <= 0.0);
@@ -325,7 +299,7 @@ impl Pen<'_> {
             LineJoin::Miter | LineJoin::Bevel => outer.push(self.at + after),
             LineJoin::Round => {
                 let angle = from.perp_dot(to).atan2(cosine).abs();
-                arc(self.at, before, -SIGNS[side] * angle, self.tolerance, outer);
+                arc(self.at, before, -SIGNS[side] * angle, self.fineness, outer);
                 outer.push(self.at + after);
             }
         }
@@ -349,7 +323,7 @@ impl Pen<'_> {
         match self.style.cap {
             LineCap::Butt => {}
             LineCap::Square => contour.extend([normal, -normal].map(|side| at + side + HALF * tangent)),
-            LineCap::Round => arc(at, normal, -std::f64::consts::PI, self.tolerance, contour),
+            LineCap::Round => arc(at, normal, -std::f64::consts::PI, self.fineness, contour),
         }
     }
 
@@ -381,72 +355,39 @@ impl Pen<'_> {
 
 /// Appends points on an arc around `center`, from `center + from` on, without its ends; `angle` is in radians, in the sense of
 /// [`DVec2::perp`].
-fn arc(center: DVec2, from: DVec2, angle: f64, tolerance: f64, points: &mut Vec<DVec2>) {
-    let steps = whole_steps(angle.abs() / arc_step(tolerance));
+fn arc(center: DVec2, from: DVec2, angle: f64, fineness: Fineness, points: &mut Vec<DVec2>) {
+    let steps = whole_steps(angle.abs() / arc_step(fineness));
     let turn = DVec2::from_angle(angle / f64::from(steps));
     let mut arm = from;
+    if fineness.keeps_area() {
+        arm *= reach_of_inner_vertices(angle.abs(), steps);
+    }
     for _ in 1..steps {
         arm = turn.rotate(arm);
         points.push(center + arm);
     }
 }
 
-/// At least so many steps, and not more than a million.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between one and a million"
-)]
-fn whole_steps(steps: f64) -> u32 {
-    steps.ceil().clamp(1.0, 1e6) as u32
+/// How many radii the vertices of an arc are away from its center, all but the two at its ends, so that its edges enclose what it
+/// encloses.
+fn reach_of_inner_vertices(angle: f64, steps: u32) -> f64 {
+    // Of n triangles between arms, two have an arm of one radius: (n - 2) r² + 2 r = n θ / sin θ.
+    let steps = f64::from(steps);
+    let step = angle / steps;
+    let area = steps * step / step.sin();
+    let reach = area / (1.0 + (1.0 + (steps - 2.0) * area).max(0.0).sqrt());
+    if reach.is_finite() { reach } else { 1.0 }
 }
 
-/// The angle at which the middle of a chord is `tolerance` away from a circle of one unit's diameter.
-fn arc_step(tolerance: f64) -> f64 {
-    2.0 * (1.0 - (tolerance / HALF).min(1.0)).acos()
-}
-
-/// How many steps a curve needs per unit of its parameter, at a place.
-fn step_density(curve: [DVec2; 4], t: f64, tolerance: f64) -> f64 {
-    let speed = derivative(curve, t);
-    let [from, first, second, to] = curve;
-    let bends = [from - 2.0 * first + second, first - 2.0 * second + to];
-    let acceleration = 6.0 * bends[0].lerp(bends[1], t);
-    let squared = speed.length_squared();
-    // Radians per unit of the parameter.
-    let turning = speed.perp_dot(acceleration).abs() / squared;
-    let density = (turning * (squared.sqrt() + HALF * turning) / (8.0 * tolerance)).sqrt();
-    if density.is_finite() { density } else { 0.0 }
-}
-
-/// Where `share` of the area lies to the left, under a straight line from one height to another over a unit's length.
-fn share_of_trapezoid(from: f64, to: f64, share: f64) -> f64 {
-    // from x + (to - from) x² / 2 = share (from + to) / 2, in the form that holds for a level line, too.
-    let area = share * (from + to);
-    let root = (from * from + (to - from) * area).max(0.0).sqrt();
-    let place = area / (from + root);
-    if place.is_finite() {
-        place.clamp(0.0, 1.0)
-    } else {
-        share
+/// The angle of an edge of a circle of one unit's diameter; at most a sixth of a turn where its vertices lie off the circle.
+fn arc_step(fineness: Fineness) -> f64 {
+    match fineness {
+        Fineness::Distance(most) => 2.0 * (1.0 - (most / HALF).min(1.0)).acos(),
+        Fineness::Area { .. } => fineness
+            .steps_per_radian(HALF)
+            .max(std::f64::consts::FRAC_1_PI * 3.0)
+            .recip(),
     }
-}
-
-fn point_at([from, first, second, to]: [DVec2; 4], t: f64) -> DVec2 {
-    let s = 1.0 - t;
-    s * s * s * from + 3.0 * s * s * t * first + 3.0 * s * t * t * second + t * t * t * to
-}
-
-fn derivative([from, first, second, to]: [DVec2; 4], t: f64) -> DVec2 {
-    let s = 1.0 - t;
-    3.0 * (s * s * (first - from) + 2.0 * s * t * (second - first) + t * t * (to - second))
-}
-
-fn halves([from, first, second, to]: [DVec2; 4]) -> [[DVec2; 4]; 2] {
-    let [a, b, c] = [from.midpoint(first), first.midpoint(second), second.midpoint(to)];
-    let [d, e] = [a.midpoint(b), b.midpoint(c)];
-    let middle = d.midpoint(e);
-    [[from, a, d, middle], [middle, e, c, to]]
 }
 
 /// A triangle that turns the way outlines do.
@@ -467,6 +408,7 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
+    use crate::geometry::curve_steps::point_at;
 
     const STYLE: StrokeStyle = StrokeStyle {
         width: 1.0,
@@ -477,7 +419,12 @@ mod tests {
 
     fn outline(elements: &[PathEl], style: StrokeStyle, tolerance: f64) -> Vec<Vec<DVec2>> {
         let mut contours = Vec::new();
-        append(elements.iter().copied(), &style, tolerance, &mut contours);
+        append(
+            elements.iter().copied(),
+            &style,
+            Fineness::Distance(tolerance),
+            &mut contours,
+        );
         contours
     }
 

@@ -6,27 +6,14 @@ use super::RenderSettings;
 use crate::geometry::{Polygon, ViewTransform};
 use crate::rules::Rules;
 
-/// For how many samples along a side of a pixel curves are fine enough where areas are covered. An edge lies on one side of its
-/// curve, at most a tenth of the distance between them, and so takes two thirds of that from a pixel: over its diagonal
-/// `255 * sqrt(2) * 2/3 * 0.1 / 512`, less than a twentieth of a level.
-const FOR_AREAS: f64 = 512.0;
-
-/// For how many samples along a side of a pixel curves are fine enough.
-fn samples_along_side(settings: &RenderSettings) -> f64 {
-    if settings.covers_areas() {
-        FOR_AREAS
-    } else {
-        settings.sample_rate.side().into()
-    }
-}
-
 /// User space to screen space, by whose rules.
 pub(super) struct Screen<'a> {
     view: &'a ViewTransform,
     pub(super) rules: Rules,
     covers_areas: bool,
-    /// Samples per canvas unit, in the direction in which there are most.
+    /// Pixels per canvas unit, in the direction in which there are most.
     scale: f64,
+    samples_along_side: f64,
     /// Pixels of the frame.
     size: [u32; 2],
     /// Pixels that are painted on each side of it.
@@ -39,7 +26,8 @@ impl<'a> Screen<'a> {
             view,
             rules: settings.rules,
             covers_areas: settings.covers_areas(),
-            scale: pixels_per_unit(view) * samples_along_side(settings),
+            scale: pixels_per_unit(view),
+            samples_along_side: settings.sample_rate.side().into(),
             size,
             margin: settings.margin(),
         }
@@ -47,30 +35,25 @@ impl<'a> Screen<'a> {
 
     /// Calls `draw` with a polygon whose edges are fine enough for this view.
     pub(super) fn with_edges<T>(&self, polygon: &Polygon, draw: impl FnOnce(&Polygon) -> T) -> T {
-        let finer = if polygon.curves().is_some() && self.shows(polygon) {
-            polygon.at_scale(self.scale)
-        } else {
+        let finer = if polygon.curves().is_none() || !self.shows(polygon) {
             None
+        } else if self.covers_areas {
+            polygon.of_same_area(self.scale)
+        } else {
+            polygon.at_scale(self.scale * self.samples_along_side)
         };
         draw(finer.as_deref().unwrap_or(polygon))
     }
 
     /// The same with edges so much finer that the area in a pixel is known to three digits; those of many points stay the
-    /// picture's, and so do those of a picture that covers areas, which are finer still.
+    /// picture's.
     pub(super) fn with_true_edges<T>(&self, polygon: &Polygon, measure: impl FnOnce(&Polygon) -> T) -> T {
-        /// Of a pixel's side.
-        const TOLERANCE: f64 = 5e-4;
-        /// They become several times as many, and are cut into triangles.
+        /// They are cut into triangles.
         const MOST_POINTS: usize = 2_000;
-        let is_coarse = !self.covers_areas && polygon.points().len() <= MOST_POINTS;
-        match polygon.curves().filter(|_| is_coarse) {
-            // Not remembered by the polygon: frames would have to find theirs again.
-            Some(curves) => {
-                let tolerance = TOLERANCE / pixels_per_unit(self.view);
-                measure(&Polygon::new(curves.flattened(tolerance), polygon.rule()))
-            }
-            None => self.with_edges(polygon, measure),
+        if self.covers_areas || polygon.points().len() > MOST_POINTS {
+            return self.with_edges(polygon, measure);
         }
+        measure(polygon.of_same_area(self.scale).as_deref().unwrap_or(polygon))
     }
 
     /// Whether any of a polygon may lie in what is painted.

@@ -220,6 +220,15 @@ impl Bands<'_> {
             let through = parts.iter().map(|part| (&self.edges[part.edge].1, part.x));
             return self.add_band(through, band, row);
         }
+        // A curve on its way through the row, edge after edge.
+        let goes_down = |pair: &[Part]| pair[0].y[1] <= pair[1].y[0];
+        let goes_up = |pair: &[Part]| pair[1].y[1] <= pair[0].y[0];
+        if parts.windows(2).all(goes_down) || parts.windows(2).all(goes_up) {
+            for part in parts {
+                self.add_band(std::iter::once((&self.edges[part.edge].1, part.x)), part.y, row);
+            }
+            return;
+        }
         self.find(parts, [top, bottom]);
         let mut memory = std::mem::take(self.memory);
         let BandMemory {

@@ -36,8 +36,8 @@ use screen::Screen;
 pub use smoothed::widened;
 pub use ties::NotOwned;
 pub use timing::{Repeats, median, milliseconds, time_draws, time_words};
-pub use visualisation::Visualisation;
 use visualisation::Visualiser;
+pub use visualisation::{ClampedPixels, Visualisation};
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,7 +153,7 @@ impl RenderSettings {
 
     /// Whether exact areas of pixels are covered, and not samples.
     pub fn covers_areas(&self) -> bool {
-        self.coverage.is_exact() && self.visualisation == Visualisation::Color
+        self.coverage.is_exact() && self.visualisation.resolves_pictures()
     }
 
     /// The settings with those values of the sampling that have an effect: one sample in the middle of each pixel, where areas
@@ -418,7 +418,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
         filter: settings.filter(),
         space: settings.resolve,
         background: settings.background,
-        palette: None,
+        recolor: None,
     }
 }
 

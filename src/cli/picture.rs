@@ -126,7 +126,8 @@ impl Picture {
 
     /// The legend of what the picture shows.
     pub(super) fn legend(&self) -> Option<Legend> {
-        self.spec.render.visualisation.legend(&self.scene)
+        let shown = self.spec.render.visualisation;
+        shown.legend_of(&self.scene, shown.clamped(self.frame.pixels()))
     }
 
     /// What the picture is of.

@@ -80,6 +80,16 @@ impl ResolveSpace {
         [0, 1, 2, 3].map(|k| sum.channels[k] as f64 / sum.weight as f64 / full[k] * 255.0)
     }
 
+    /// By how many levels the mean that a sum stands for is beyond what a pixel can show: how far the least channel is below nothing,
+    /// and the greatest above the opacity, or that above 1; in [`ResolveSpace::Linear`] light. Zero where nothing is.
+    pub fn beyond_pixel(self, sum: WeightedSum) -> [f64; 2] {
+        let [r, g, b, alpha] = self.weighted_mean(sum);
+        let most = alpha.clamp(0.0, 255.0);
+        let below = [r, g, b, alpha].map(|channel| -channel);
+        let above = [r - most, g - most, b - most, alpha - 255.0];
+        [below, above].map(|beyond| beyond.into_iter().fold(0.0, f64::max))
+    }
+
     /// The straight 8-bit pixel `0xAARRGGBB`, rounded to nearest or truncated as `rules` say. Opacity beyond `0..=1` is
     /// clamped, and colours beyond nothing and the opacity.
     pub fn weighted_pixel(self, sum: WeightedSum, rules: Rules) -> u32 {
@@ -250,6 +260,17 @@ mod tests {
             assert_eq!(pixel(&[(black, 11), (white, -1)]), 0xFF00_0000, "beyond black");
             assert_eq!(pixel(&[(nothing, 11), (red, -1)]), 0, "less than nothing");
             assert_eq!(pixel(&[(red, 11), (nothing, -1)]) >> 24, 255, "more than opaque");
+            for (samples, expected) in [
+                ([(white, 11), (black, -1)], [0.0, 25.5]),
+                ([(black, 11), (white, -1)], [25.5, 0.0]),
+                ([(nothing, 11), (red, -1)], [25.5, 0.0]),
+                ([(red, 11), (nothing, -1)], [0.0, 25.5]),
+                ([(white, 1), (black, 1)], [0.0, 0.0]),
+            ] {
+                let beyond = space.beyond_pixel(sum(space, &samples));
+                let off = [0, 1].map(|end| (beyond[end] - expected[end]).abs());
+                assert!(off[0] < 0.01 && off[1] < 0.01, "{samples:?} in {space:?}: {beyond:?}");
+            }
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::raster::list::chunk::{Chunk, measure_layers};
 use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Kinds;
 use crate::raster::sampling::positions::SamplePositions;
-use crate::raster::settings::RasterSettings;
+use crate::raster::settings::{RasterSettings, Recolor};
 use crate::raster::shading::context::ShadeContext;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::Span;
@@ -108,8 +108,17 @@ impl<'a> DisplayList<'a> {
             space: self.settings.space,
             shading: self.context.shading,
             sampling: self.settings.sampling,
+            clamped: match self.settings.recolor {
+                Some(Recolor::Clamped(color)) => Some(color),
+                Some(Recolor::Palette(_)) | None => None,
+            },
             sources: &self.sources,
         }
+    }
+
+    /// Whether the resolve of tiles says what it clamped.
+    pub(in crate::raster) fn tells_clamped(&self) -> bool {
+        matches!(self.settings.recolor, Some(Recolor::Clamped(_))) && !self.settings.filter.is_plain()
     }
 
     /// How many outlines there are.

@@ -65,7 +65,7 @@ pub use sampling::pixel_coverage::PixelCoverage;
 pub use sampling::rate::SampleRate;
 pub use sampling::shading_rate::ShadingRate;
 pub use sampling::statistics::{PatternStatistics, PowerSpectrum};
-pub use settings::RasterSettings;
+pub use settings::{RasterSettings, Recolor};
 pub use shading::Paint;
 pub use shading::interpolated::{Attributes, TextureUse};
 pub use shading::once::ShadingPlace;

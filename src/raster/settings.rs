@@ -30,8 +30,31 @@ pub struct RasterSettings {
     pub space: ResolveSpace,
     /// What lies below the first primitive.
     pub background: Rgba,
-    /// Where it is given, the red of each resolved pixel is a number and becomes the colour of that index.
-    pub palette: Option<&'static [u32; 256]>,
+    /// What becomes of resolved pixels, where they do not stay as they are.
+    pub recolor: Option<Recolor>,
+}
+
+/// What resolved pixels become.
+#[derive(Clone, Copy, Debug)]
+pub enum Recolor {
+    /// The red of each is a number and becomes the colour of that index.
+    Palette(&'static [u32; 256]),
+    /// Each is told by how many levels its colour was beyond what a pixel can show before it was clamped: below nothing, and above
+    /// everything. Both are zero where samples do not weigh less than nothing.
+    Clamped(fn([f64; 2], u32) -> u32),
+}
+
+impl Recolor {
+    /// What a pixel becomes whose colour was not clamped.
+    pub(in crate::raster) fn unclamped(self, pixel: u32) -> u32 {
+        match self {
+            Self::Palette(palette) => {
+                let [_, red, ..] = pixel.to_be_bytes();
+                palette[usize::from(red)]
+            }
+            Self::Clamped(color) => color([0.0; 2], pixel),
+        }
+    }
 }
 
 /// One sample in the middle of each pixel, on white.
@@ -47,7 +70,7 @@ impl Default for RasterSettings {
             filter: SizedFilter::default(),
             space: ResolveSpace::default(),
             background: Rgba::WHITE,
-            palette: None,
+            recolor: None,
         }
     }
 }

@@ -104,7 +104,7 @@ impl DisplayList<'_> {
     /// The pixel that most of some tiles are filled with, if it is worth filling all of their rows with it at once: tile by
     /// tile the same takes twice the time, since a tile's rows lie far from each other in memory.
     fn common_start(&self, pass: &Pass<'_>, tiles: Range<usize>) -> Option<u32> {
-        if self.settings.palette.is_some() || pass.bins.len() > FEW_CHUNKS {
+        if self.settings.recolor.is_some() || pass.bins.len() > FEW_CHUNKS {
             return None;
         }
         // Whoever has more than half of the votes is left (Boyer and Moore, MJRTY, 1991); three quarters leave half of them over.
@@ -174,7 +174,7 @@ impl DisplayList<'_> {
             color
         };
         let pixel = color.to_pixel(self.settings.sampling.rules);
-        Some(self.settings.palette.map_or(pixel, |palette| recolor(palette, pixel)))
+        Some(self.settings.recolor.map_or(pixel, |recolor| recolor.unclamped(pixel)))
     }
 
     /// As [`DisplayList::numbered_tile`], with all samples painted.
@@ -197,7 +197,12 @@ impl DisplayList<'_> {
         let start = tile.is_multiple_of(TIMED).then(Instant::now);
         let mut resolving = None;
         let painted = self.context.tiles.painted(block.rect);
-        let mut method = self.method(pass, tile, first);
+        let mut method = if self.tells_clamped() {
+            // Others know colours without sums.
+            Method::PerSample
+        } else {
+            self.method(pass, tile, first)
+        };
         if let Method::Visibility(rounding) = method
             && !self.paint_surfaces(painters, &visible(&pass.bins, tile, first), painted, rounding)
         {
@@ -250,8 +255,9 @@ impl DisplayList<'_> {
             painters.tally.timed += start.elapsed();
             painters.tally.resolving += resolving.map(|start| start.elapsed()).unwrap_or_default();
         }
-        if let Some(palette) = self.settings.palette {
-            block.map(|pixel| recolor(palette, pixel));
+        // What takes samples of its neighbours knows what it clamped.
+        if let Some(recolor) = self.settings.recolor.filter(|_| !self.tells_clamped()) {
+            block.map(|pixel| recolor.unclamped(pixel));
         }
     }
 
@@ -287,10 +293,4 @@ impl DisplayList<'_> {
         // Sums of flat colours are those of the samples; of those of what is shaded no other method gives the same bytes.
         rounding == Rounding::Sums && !is_flat() && paint(Crowds::Painted)
     }
-}
-
-/// What a palette makes of a pixel: its colour number red.
-fn recolor(palette: &[u32; 256], pixel: u32) -> u32 {
-    let [_, red, ..] = pixel.to_be_bytes();
-    palette[usize::from(red)]
 }

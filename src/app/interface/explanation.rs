@@ -218,6 +218,7 @@ fn other_view(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let name = match viewer.settings().render.visualisation {
         Visualisation::Color => return,
         Visualisation::Primitive => "primitives",
+        Visualisation::Clamped => "clamped pixels",
         Visualisation::Barycentric => "barycentric weights",
         Visualisation::Uv => "(u, v)",
         Visualisation::LevelOfDetail => "level-of-detail",

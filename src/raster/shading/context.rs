@@ -23,6 +23,8 @@ pub(crate) struct ShadeContext<'a> {
     /// How often a primitive is shaded in a pixel.
     pub(crate) shading: ShadingRate,
     pub(crate) sampling: SamplingSettings,
+    /// What becomes of pixels by how far they were clamped, where that is shown.
+    pub(crate) clamped: Option<fn([f64; 2], u32) -> u32>,
     pub(crate) sources: &'a PaintSources<'a>,
 }
 

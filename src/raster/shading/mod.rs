@@ -406,6 +406,7 @@ mod tests {
             space: ResolveSpace::Stored,
             shading: ShadingRate::Sample,
             sampling: SamplingSettings::default(),
+            clamped: None,
             sources: &sources,
         };
         let corners = [[0, 0], [999, 0], [0, 999]].map(|[x, y]| GridPoint { x, y });

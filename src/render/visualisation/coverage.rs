@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use crate::color::{Colormap, ResolveSpace, Rgba};
-use crate::raster::RasterSettings;
+use crate::raster::{RasterSettings, Recolor};
 use crate::render::Legend;
 use crate::render::visualisation::colors::scale;
 use crate::render::visualisation::show::{Show, Source, Target, repaint};
@@ -47,7 +47,7 @@ impl Show for Coverage {
 
 /// Resolved pixels are numbers on a black ground, each of which a palette gives a colour.
 pub(super) fn count(settings: &mut RasterSettings, palette: &'static [u32; 256]) {
-    settings.palette = Some(palette);
+    settings.recolor = Some(Recolor::Palette(palette));
     settings.background = Rgba::BLACK;
     settings.space = ResolveSpace::Stored;
 }

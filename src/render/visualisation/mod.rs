@@ -2,13 +2,15 @@
 //! become colours.
 //!
 //! Shapes and samples stay those of the picture: only paints change, so that a visualisation can be laid over the picture
-//! pixel by pixel; and a pixel is always the mean of its own samples, whatever filter the picture has. All colours are told apart by people with any kind of colour vision.
+//! pixel by pixel; and a pixel is the mean of its own samples, whatever filter the picture has, unless it is the filter that is
+//! shown. All colours are told apart by people with any kind of colour vision.
 //!
 //! Each visualisation is a [`Show`] in a file of its own, with its legend. To add one, write its file and a line in the
 //! table below.
 
 mod anisotropy;
 mod barycentric;
+mod clamped;
 mod clips;
 mod colors;
 mod coverage;
@@ -20,6 +22,8 @@ mod primitive;
 mod show;
 mod uv;
 mod wireframe;
+
+pub use clamped::ClampedPixels;
 
 use super::{Legend, RenderSettings, Screen, sources};
 use crate::geometry::ViewTransform;
@@ -79,6 +83,8 @@ visualisations! {
     LevelOfDetail = "lod" => level_of_detail::Lod,
     /// Which mip levels are read: the picture with a tint for each level.
     MipLevels = "mip" => mip_levels::MipLevels,
+    /// Where the resolve filter made colours that no pixel can show, below 0 or above 1, over the paled picture.
+    Clamped = "clamped" => clamped::Clamped,
     /// How many times as long as wide a pixel's footprint is, as anisotropic filtering measures it.
     Anisotropy = "anisotropy" => anisotropy::Lengths,
 }
@@ -92,6 +98,24 @@ impl Visualisation {
     /// What a pixel's colour is, in few words of Markdown.
     pub fn meaning(self) -> &'static str {
         self.show().meaning()
+    }
+
+    /// As [`Visualisation::legend`], with what was counted in the picture.
+    pub fn legend_of(self, scene: &Scene, clamped: Option<ClampedPixels>) -> Option<Legend> {
+        match self {
+            Self::Clamped => Some(clamped::legend(clamped)),
+            _ => self.legend(scene),
+        }
+    }
+
+    /// How many pixels of a picture were clamped, where that is what it shows.
+    pub fn clamped(self, pixels: &[u32]) -> Option<ClampedPixels> {
+        (self == Self::Clamped).then(|| ClampedPixels::of(pixels))
+    }
+
+    /// Whether its pixels are resolved as those of the picture are.
+    pub fn resolves_pictures(self) -> bool {
+        matches!(self, Self::Color | Self::Clamped)
     }
 
     /// What the colours of this visualisation of `scene` mean; nothing to say of the picture itself.
@@ -126,7 +150,9 @@ impl<'a> Visualiser<'a> {
     /// What the rasterizer does otherwise than for the picture.
     pub(super) fn change(kind: Visualisation, settings: &mut RasterSettings) {
         // Numbers, and colours that stand for them, mean nothing beyond the pixel that they were found in.
-        settings.filter = SizedFilter::default();
+        if !kind.resolves_pictures() {
+            settings.filter = SizedFilter::default();
+        }
         kind.show().change(settings);
     }
 

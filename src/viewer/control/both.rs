@@ -6,7 +6,7 @@ use crate::compare::Gain;
 use crate::figure::{Anchor, Tag};
 use crate::plain;
 use crate::raster::Framebuffer;
-use crate::render::{Legend, RenderSettings, Visualisation};
+use crate::render::{ClampedPixels, Legend, RenderSettings, Visualisation};
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measures, SharedPicture, Which};
 use crate::viewer::ab::other::{Arrangement, Other};
@@ -288,13 +288,20 @@ impl<'a> Both<'a> {
         shown
     }
 
+    /// How many pixels of A's frame were clamped, where that is what is shown, and nothing else.
+    pub(in crate::viewer) fn clamped_pixels(&self) -> Option<ClampedPixels> {
+        let frame = self.frames.frame().filter(|_| !self.ab.shows_both())?;
+        frame.picture.settings.visualisation.clamped(frame.pixels.pixels())
+    }
+
     /// The legends that a saved picture carries.
     pub(in crate::viewer) fn legends_of_picture(&self) -> Vec<Legend> {
         let Some(frame) = self.frames.frame() else {
             return Vec::new();
         };
         let legends = self.visualisations().into_iter();
-        let legends = legends.filter_map(|shown| shown.legend(&frame.picture.scene));
+        let clamped = self.clamped_pixels();
+        let legends = legends.filter_map(|shown| shown.legend_of(&frame.picture.scene, clamped));
         legends.chain(self.difference_legend()).collect()
     }
 

@@ -203,6 +203,7 @@ impl Pointing<'_> {
         Some(LegendRequest {
             scene,
             shown,
+            clamped: both.clamped_pixels(),
             window: layout.window(),
             area: layout.free_window(),
             spared: insets.map(|placed| placed.rect).chain(pixel).chain(rings).collect(),

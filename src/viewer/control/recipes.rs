@@ -170,7 +170,10 @@ impl Recipes<'_> {
         Shot::Frame {
             frame: Arc::clone(frame),
             insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
-            legends: shown.and_then(|shown| shown.legend(scene)).into_iter().collect(),
+            legends: shown
+                .and_then(|shown| shown.legend_of(scene, shown.clamped(frame.pixels.pixels())))
+                .into_iter()
+                .collect(),
         }
     }
 

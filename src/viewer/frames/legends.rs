@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::figure::place_legends;
 use crate::raster::Framebuffer;
-use crate::render::{Legend, Visualisation};
+use crate::render::{ClampedPixels, Legend, Visualisation};
 use crate::scene::Scene;
 use crate::viewer::PixelRect;
 use crate::viewer::frames::present::{WindowPixels, paste};
@@ -29,6 +29,8 @@ pub(in crate::viewer) struct PlacedLegends {
 pub(in crate::viewer) struct LegendRequest {
     pub(in crate::viewer) scene: Arc<Scene>,
     pub(in crate::viewer) shown: Vec<Visualisation>,
+    /// How many pixels of the only picture were clamped, where that is shown.
+    pub(in crate::viewer) clamped: Option<ClampedPixels>,
     pub(in crate::viewer) window: [u32; 2],
     pub(in crate::viewer) area: PixelRect,
     pub(in crate::viewer) spared: Vec<PixelRect>,
@@ -39,6 +41,7 @@ impl PartialEq for LegendRequest {
         let places = |request: &Self| (request.window, request.area);
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.shown == other.shown
+            && self.clamped == other.clamped
             && places(self) == places(other)
             && self.spared == other.spared
     }
@@ -78,7 +81,7 @@ impl LegendRequest {
         let legends: Vec<Legend> = self
             .shown
             .iter()
-            .filter_map(|shown| shown.legend(&self.scene))
+            .filter_map(|shown| shown.legend_of(&self.scene, self.clamped))
             .collect();
         place_legends(&legends, self.window, &self.area, &self.spared)
     }

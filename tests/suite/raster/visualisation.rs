@@ -1,12 +1,12 @@
 //! Visualisations: each number that colours stand for is compared with what the explanation of the pixel, or plain
 //! arithmetic, says of it.
 
-use rasterscope::color::Colormap;
+use rasterscope::color::{Colormap, ResolveSpace};
 use rasterscope::figure::{PixelRect, add_legends, place_legends};
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Interpolated, Texture as ReadTexture, View as ViewOfSample};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
-use rasterscope::render::{LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
+use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate};
+use rasterscope::render::{ClampedPixels, LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, DialectChoice, PrimitiveKind, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
@@ -176,7 +176,7 @@ fn visualised_coverage_does_not_see_colours_and_layers() {
     let scene = read(&svg("width='10' height='10'", body), DialectChoice::Svg);
     let settings = RenderSettings {
         sample_rate: rate(16),
-        resolve: rasterscope::color::ResolveSpace::Linear,
+        resolve: ResolveSpace::Linear,
         ..showing(Visualisation::Coverage)
     };
     let frame = picture(&scene, &settings, View::Canvas, [10, 10]);
@@ -256,7 +256,7 @@ fn legend_colors(visualisation: Visualisation, scene: &Scene) -> Vec<u32> {
 
 /// One scene under every visualisation.
 struct Shown {
-    frames: [Framebuffer; 10],
+    frames: [Framebuffer; Visualisation::ALL.len()],
     /// Colours of triangle corners, of the axes of `(u, v)`, of mip levels.
     legends: [Vec<u32>; 3],
 }
@@ -381,6 +381,71 @@ fn visualised_numbers_are_those_of_the_explanation() {
     );
 }
 
+/// Which pixels are shown as clamped, below 0 and above 1, against the mean that the explanation has before it is clamped.
+#[test]
+fn clamped_pixels_are_those_whose_mean_no_pixel_can_show() {
+    const SIDE: u32 = 70;
+    let body = "<rect width='70' height='70' fill='#fff'/><circle cx='20' cy='30' r='12'/>\
+                <rect x='40.3' y='12' width='21' height='33' fill='#ff0'/><rect x='52' y='5.5' width='9' height='60' fill='#00f'/>";
+    let scene = read(&svg("width='70' height='70'", body), DialectChoice::Svg);
+    let shown = |settings: &RenderSettings| picture(&scene, settings, View::Default, [SIDE; 2]);
+    for (pattern, resolve, resolve_filter) in [
+        (SamplePattern::Grid, ResolveSpace::Stored, ResolveFilter::Lanczos3),
+        (SamplePattern::Grid, ResolveSpace::Linear, ResolveFilter::Mitchell),
+        (SamplePattern::Sobol, ResolveSpace::Stored, ResolveFilter::CatmullRom),
+        (SamplePattern::Jittered, ResolveSpace::Linear, ResolveFilter::Lanczos2),
+    ] {
+        let settings = RenderSettings {
+            sample_rate: rate(4),
+            pattern,
+            resolve,
+            resolve_filter,
+            ..showing(Visualisation::Clamped)
+        };
+        let frame = shown(&settings);
+        let mut expected = ClampedPixels::default();
+        for [x, y] in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| [x, y])) {
+            let mean = explained(&scene, &settings, [SIDE; 2], [x, y]).resolve.mean;
+            let [below, above] = [
+                mean.iter().any(|channel| *channel <= -0.5),
+                mean.iter().any(|channel| *channel >= 255.5),
+            ];
+            let own = ClampedPixels {
+                below: u64::from(below && !above),
+                above: u64::from(above && !below),
+                both: u64::from(below && above),
+                all: 1,
+            };
+            let found = ClampedPixels::of(&[pixel(&frame, x, y)]);
+            assert_eq!(found, own, "{resolve_filter:?} at {x},{y}: {mean:?}");
+            expected.below += own.below;
+            expected.above += own.above;
+            expected.both += own.both;
+            expected.all += 1;
+        }
+        assert_eq!(ClampedPixels::of(frame.pixels()), expected);
+        let counts = [expected.below, expected.above, expected.both];
+        assert!(counts.iter().all(|count| *count > 10), "{resolve_filter:?}: {counts:?}");
+    }
+    // Weights that are never below zero clamp nothing.
+    for resolve_filter in [ResolveFilter::Box, ResolveFilter::Tent, ResolveFilter::BSpline] {
+        let settings = RenderSettings {
+            sample_rate: rate(4),
+            resolve_filter,
+            ..showing(Visualisation::Clamped)
+        };
+        let expected = ClampedPixels {
+            all: u64::from(SIDE * SIDE),
+            ..ClampedPixels::default()
+        };
+        assert_eq!(
+            ClampedPixels::of(shown(&settings).pixels()),
+            expected,
+            "{resolve_filter:?}"
+        );
+    }
+}
+
 #[test]
 fn visualised_edges_run_where_the_primitives_do() {
     let body =
@@ -488,10 +553,16 @@ fn golden_visualisations() {
             sample_rate: rate(4),
             pixel_sampling: PixelSampling::Bilinear,
             level_sampling: LevelSampling::Linear,
+            resolve_filter: if visualisation == Visualisation::Clamped {
+                ResolveFilter::Lanczos3
+            } else {
+                ResolveFilter::Box
+            },
             ..showing(visualisation)
         };
         let mut frame = picture(&scene, &settings, View::Default, [400, 400]);
-        add_legends(&mut frame, &[visualisation.legend(&scene).unwrap()], &[]);
+        let legend = visualisation.legend_of(&scene, visualisation.clamped(frame.pixels()));
+        add_legends(&mut frame, &[legend.unwrap()], &[]);
         let name = format!("visualised_{}", visualisation.name());
         problems.extend(check(&name, &frame, TOLERANCE).err());
     }

@@ -45,6 +45,8 @@ pub(in crate::raster) struct WideResolve {
     samples: WeighedPositions,
     space: ResolveSpace,
     rules: Rules,
+    /// What becomes of pixels by how far they were clamped, where that is shown.
+    clamped: Option<fn([f64; 2], u32) -> u32>,
     flat: FlatPixels,
     sums: Sums,
 }
@@ -104,7 +106,10 @@ impl WideResolve {
         let sums = match context.space {
             _ if !is_grid => Sums::free(context.space, &samples),
             ResolveSpace::Stored => match DotSums::new(&samples.weights, side, rules) {
-                Some(sums) if !is_too_little(sums.total(), positions.count()) => Sums::Dots(sums),
+                // They clamp what they sum up at once.
+                Some(sums) if context.clamped.is_none() && !is_too_little(sums.total(), positions.count()) => {
+                    Sums::Dots(sums)
+                }
                 _ => Sums::Stored(SeparableSums::new(context.space, &samples.weights, side)),
             },
             ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &samples.weights, side)),
@@ -113,6 +118,7 @@ impl WideResolve {
             samples,
             space: context.space,
             rules,
+            clamped: context.clamped,
             flat: FlatPixels::default(),
             sums,
         }
@@ -158,6 +164,7 @@ impl WideResolve {
             margin,
             space: self.space,
             rules: self.rules,
+            clamped: self.clamped,
         };
         let mut put = |[x, y]: [usize; 2], sum: WeightedSum| {
             let line = block.line(block.rect.y.start + i32::try_from(y).unwrap_or(0));
@@ -183,7 +190,8 @@ impl WideResolve {
                 // Those of a run are among each other's neighbours, and so of one colour, where a pixel has any.
                 let alike = if margin == 0 { 1 } else { run.len() };
                 for (colors, pixels) in whole[run.clone()].chunks(alike).zip(line[run].chunks_mut(alike)) {
-                    pixels.fill(colors[0].to_pixel(self.rules));
+                    let pixel = colors[0].to_pixel(self.rules);
+                    pixels.fill(self.clamped.map_or(pixel, |color| color([0.0; 2], pixel)));
                 }
             }
         }
@@ -233,11 +241,27 @@ struct Finish<'s> {
     margin: usize,
     space: ResolveSpace,
     rules: Rules,
+    clamped: Option<fn([f64; 2], u32) -> u32>,
 }
 
 impl Finish<'_> {
     /// The pixel of the tile in column `x` and row `y`.
-    fn pixel(&self, [x, y]: [usize; 2], sum: WeightedSum) -> u32 {
+    fn pixel(&self, at: [usize; 2], sum: WeightedSum) -> u32 {
+        let pixel = self.color(at, sum);
+        let Some(color) = self.clamped else {
+            return pixel;
+        };
+        let is_its_own = is_too_little(sum.weight, self.colors.per_pixel());
+        let beyond = if is_its_own {
+            [0.0; 2]
+        } else {
+            self.space.beyond_pixel(sum)
+        };
+        color(beyond, pixel)
+    }
+
+    /// Its colour.
+    fn color(&self, [x, y]: [usize; 2], sum: WeightedSum) -> u32 {
         if is_too_little(sum.weight, self.colors.per_pixel()) {
             return self.own([x, y]);
         }

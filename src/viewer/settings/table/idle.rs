@@ -27,7 +27,7 @@ pub(super) fn seed(now: &RenderSettings) -> Option<&'static str> {
 pub(super) fn colours(now: &RenderSettings) -> Option<&'static str> {
     let has_colours = matches!(
         now.visualisation,
-        Visualisation::Color | Visualisation::Wireframe | Visualisation::MipLevels
+        Visualisation::Color | Visualisation::Clamped | Visualisation::Wireframe | Visualisation::MipLevels
     );
     (!has_colours).then_some(NO_COLOURS)
 }
@@ -68,5 +68,5 @@ pub(super) fn lod_by(now: &RenderSettings) -> Option<&'static str> {
 
 /// Whether nothing of a footprint is shown but what it reads.
 fn shows_colours(now: &RenderSettings) -> bool {
-    now.visualisation == Visualisation::Color
+    now.visualisation.resolves_pictures()
 }

@@ -14,8 +14,8 @@ use crate::texture::{
     Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, PyramidFilter,
 };
 
-/// Corners near a pixel above which it is not drawn again and again.
-const MOST_WORK: usize = 50_000;
+/// Corners near a pixel above which it is not drawn again and again: it takes some tenths of a second then.
+const MOST_WORK: usize = 500_000;
 /// A setting has to bring a pixel nearer by more levels than this: less is rounding.
 const LEAST: f64 = 1.0;
 /// Of several values of a setting the first is taken that brings this part of what the best one does.
@@ -43,6 +43,8 @@ impl Explanation {
             .retain(|missed| !missed.in_mask || missed.shown > Some(0.0));
         if is_little {
             explanation.truth = explanation.find_truth(question, &nearby);
+        } else {
+            explanation.untried = Some(nearby.work());
         }
         Some(explanation)
     }

@@ -6,11 +6,11 @@
 use std::collections::BTreeSet;
 
 use super::model::{
-    Causes, Cure, Explanation, Interpolated, Missed, MissedCause, Paint, Setting, Texture, Truth, View,
+    Causes, Cure, Explanation, Interpolated, Missed, MissedCause, NotDrawn, Paint, Setting, Texture, Truth, View,
 };
 use super::numbers::{about, number, percent, significant};
 use crate::color::ResolveSpace;
-use crate::raster::{PixelCoverage, ShadingRate};
+use crate::raster::{PixelCoverage, SampleRate, ShadingRate};
 use crate::texture::PyramidFilter;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
@@ -27,8 +27,20 @@ const SURE: f64 = 6.0;
 impl Explanation {
     /// How far the pixel is from the truth, then everything that would bring it nearer; empty where nobody asked.
     pub fn help_lines(&self) -> Vec<String> {
-        let verdict = self.truth.as_ref().map(Truth::verdict);
-        verdict.into_iter().chain(self.hints()).collect()
+        let verdict = self.truth.as_ref().map(|truth| truth.verdict(&self.samples_of_truth()));
+        let lacking = verdict.as_ref().and(self.not_drawn.as_ref()).map(NotDrawn::words);
+        let untried = self.untried.map(|corners| {
+            format!("No setting was tried: {corners} corners reach this pixel's surroundings, too many to draw them again and again.")
+        });
+        let first = verdict.into_iter().chain(lacking).chain(untried);
+        first.chain(self.hints()).collect()
+    }
+
+    /// The samples that the truth has, in words.
+    fn samples_of_truth(&self) -> String {
+        let filter = self.resolve.around.as_ref().map(|around| around.filter);
+        let weighed = filter.map_or(String::new(), |filter| format!(" under the same {filter} filter"));
+        format!("{} samples{weighed}", SampleRate::MAX)
     }
 
     /// What is wrong about seams here, then each setting that would bring this pixel nearer to the truth, the best first, with
@@ -283,26 +295,43 @@ impl Explanation {
     }
 }
 
+impl NotDrawn {
+    /// What the truth lacks.
+    fn words(&self) -> String {
+        let others = match self.others {
+            0 => String::new(),
+            1 => " and one other thing".to_owned(),
+            others => format!(" and {others} other things"),
+        };
+        format!(
+            "The truth is that of what is drawn: {} (line {}){others} in the document {} not.",
+            self.name,
+            self.line,
+            if self.others == 0 { "is" } else { "are" },
+        )
+    }
+}
+
 impl Truth {
     /// How far the pixel is from it, in one sentence.
-    fn verdict(&self) -> String {
+    fn verdict(&self, samples: &str) -> String {
         let is_sure = self.unsure <= SURE;
         let far = levels(self.distance);
         let verdict = if self.distance == 0.0 && is_sure {
-            return "This pixel is what it should be: it has the colour of the truth (256 samples).".to_owned();
+            return format!("This pixel is what it should be: it has the colour of the truth ({samples}).");
         } else if self.distance <= 1.0 && is_sure {
-            return "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned();
+            return format!("This pixel is what it should be, within 1 level of the truth ({samples}).");
         } else if self.distance == 0.0 {
-            "This pixel has the colour of the truth (256 samples).".to_owned()
+            format!("This pixel has the colour of the truth ({samples}).")
         } else if self.is_reached() {
-            format!("This pixel is within {far} of the truth (256 samples).")
+            format!("This pixel is within {far} of the truth ({samples}).")
         } else if self.cures.is_empty() {
             format!(
-                "This pixel is within {far} of the truth (256 samples); no setting that was tried brings it nearer by more than {} by itself.",
+                "This pixel is within {far} of the truth ({samples}); no setting that was tried brings it nearer by more than {} by itself.",
                 levels(self.least())
             )
         } else {
-            format!("This pixel is {far} from the truth (256 samples).")
+            format!("This pixel is {far} from the truth ({samples}).")
         };
         if is_sure && !self.is_reached() {
             return verdict;

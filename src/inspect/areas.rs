@@ -135,7 +135,7 @@ impl Explanation {
             .map(|(number, paint)| format!("{} ({})", number + 1, paint.name()))
             .collect();
         let part = |paint: &Paint| paint.covered.unwrap_or(0.0) * paint.alpha() / 255.0;
-        let factors: Vec<String> = known().map(|(_, paint)| format!("(1 - {:.3})", part(paint))).collect();
+        let factors: Vec<String> = known().map(|(_, paint)| format!("(1 - {:.4})", part(paint))).collect();
         let expected = if *by_opacity > 0.0 {
             format!(", where their opacity alone lets {} through", percent(*by_opacity))
         } else {

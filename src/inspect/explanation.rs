@@ -4,7 +4,9 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
+use super::model::{
+    Explanation, Fragment, Missed, NotDrawn, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View,
+};
 use super::numbers::{hex, one_line};
 use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
@@ -18,7 +20,7 @@ use crate::raster::{
 };
 use crate::render::{self, Explainer, MissedPrimitive, OpenSample, Subject};
 use crate::rules::Rules;
-use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes};
+use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes, Report};
 
 /// How far beside the pixel primitives are measured, in distances of samples: far enough that the corner of something
 /// large is not taken for something thin.
@@ -121,6 +123,8 @@ impl Explanation {
             unlisted,
             missed: question.missed(missed, sources, around, &positions),
             truth: None,
+            untried: None,
+            not_drawn: not_drawn(&subject.scene.report),
         })
     }
 }
@@ -130,6 +134,16 @@ impl Explanation {
     fn topmost_of(paints: &mut [Paint]) -> Option<&mut Paint> {
         paints.iter_mut().rev().find(|paint| paint.is_seen())
     }
+}
+
+/// What a scene's document asks for and no picture has.
+fn not_drawn(report: &Report) -> Option<NotDrawn> {
+    let first = report.skipped.first()?;
+    Some(NotDrawn {
+        name: first.name.clone(),
+        line: first.first.line,
+        others: report.skipped.len() - 1,
+    })
 }
 
 /// Finds how much of the pixel each paint's primitive covers: once for all pieces of one.
@@ -169,6 +183,7 @@ impl Question<'_> {
             Some(Missed {
                 source: self.source(primitive, sources.quotes)?,
                 primitive,
+                part: self.is_part(primitive),
                 stroke: polygon.is_some_and(Polygon::is_stroke),
                 crisp: polygon.is_some_and(Polygon::is_crisp),
                 in_mask,
@@ -179,6 +194,18 @@ impl Question<'_> {
             })
         };
         found.into_iter().filter_map(missed).collect()
+    }
+
+    /// Whether a primitive is one of several triangles of its element.
+    fn is_part(&self, primitive: u32) -> bool {
+        let primitives = &self.subject.scene.primitives;
+        let index = primitive as usize;
+        let triangle = |index: usize| {
+            let primitive = primitives.get(index)?;
+            matches!(primitive.kind, PrimitiveKind::Triangle { .. }).then_some(primitive.shape)
+        };
+        let beside = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
+        triangle(index).is_some_and(|shape| beside.into_iter().any(|other| triangle(other) == Some(shape)))
     }
 
     fn paint(&self, op: &PaintedCommand, piece: Option<Piece>, seen: &[bool], sources: Sources<'_>) -> Paint {

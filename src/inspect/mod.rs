@@ -43,8 +43,9 @@ pub use differences::Difference;
 pub use explanation::Question;
 pub use level_in_use::LevelInUse;
 pub use model::{
-    Around, Conflation, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve,
-    Rounding, Sample, Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View, Wrapped,
+    Around, Conflation, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, NotDrawn, Paint, Pinhole,
+    Resolve, Rounding, Sample, Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View,
+    Wrapped,
 };
 pub use numbers::counted;
 pub use samples::{PixelSample, SampleHit, pixel_samples};

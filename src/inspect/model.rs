@@ -56,6 +56,24 @@ pub struct Explanation {
     pub missed: Vec<Missed>,
     /// What the pixel should be, and what brings it nearer; `None` where nobody asked, or there is too much to draw.
     pub truth: Option<Truth>,
+    /// Where there is too much: how many corners would have to be drawn for each setting.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub untried: Option<usize>,
+    /// What the document asks for and no picture has, the truth neither: the first of it, such as `filter, line 3`, and how much there
+    /// is besides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_drawn: Option<NotDrawn>,
+}
+
+/// What the document asks for and no picture has.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct NotDrawn {
+    /// The name of the element, attribute or property.
+    pub name: Box<str>,
+    /// Where it stands first.
+    pub line: u32,
+    /// How many other names there are.
+    pub others: usize,
 }
 
 /// Primitives that cover all of a pixel together, without overlap, where areas are covered.
@@ -648,6 +666,8 @@ pub struct Missed {
     pub source: Source,
     /// Index into the scene's primitives.
     pub primitive: u32,
+    /// Whether it is one of the triangles that its element is painted as.
+    pub part: bool,
     /// Whether it is the stroke of a path.
     pub stroke: bool,
     /// Whether it has one sample per pixel, the pixel's middle, at every rate.

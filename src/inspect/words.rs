@@ -427,7 +427,11 @@ impl Explanation {
                 }
                 _ => String::new(),
             });
-            let stroke = if missed.stroke { "stroke of " } else { "" };
+            let of = match (missed.part, missed.stroke) {
+                (true, _) => "triangle of ",
+                (false, true) => "stroke of ",
+                (false, false) => "",
+            };
             let name = missed.source.name();
             let what = if missed.crisp {
                 "not its middle, where shape-rendering asks for its one sample"
@@ -435,7 +439,7 @@ impl Explanation {
                 "no sample"
             };
             let what = what.to_owned() + &self.tie_words(missed);
-            format!("{stroke}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}{shown}")
+            format!("{of}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}{shown}")
         };
         self.missed.iter().map(line).collect()
     }

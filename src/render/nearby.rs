@@ -65,8 +65,11 @@ impl<'a> Nearby<'a> {
 
     /// How much there is to draw each time, in corners.
     pub fn work(&self) -> usize {
+        /// What a layer's begin or end takes.
+        const LAYER: usize = 30;
         let corners = |index: &u32| match &self.scene.primitives[*index as usize].kind {
             PrimitiveKind::Polygon { polygon, .. } => polygon.points().len(),
+            PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => LAYER,
             _ => 3,
         };
         self.primitives.iter().map(corners).sum()

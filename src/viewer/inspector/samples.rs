@@ -71,6 +71,7 @@ impl Target {
         guarded(|| self.samples()).unwrap_or_default()
     }
 
+    /// None where areas are covered.
     fn samples(&self) -> Vec<ProbedSample> {
         let Picture {
             scene,
@@ -79,6 +80,9 @@ impl Target {
             size,
             ..
         } = &self.picture;
+        if settings.covers_areas() {
+            return Vec::new();
+        }
         let samples = pixel_samples(scene, view, settings, *size, self.pixel).unwrap_or_default();
         let own = samples.iter().map(|sample| {
             let hit = match sample.hit {

@@ -1,7 +1,7 @@
 //! What is given as the reason is the reason: small documents in which something else lies near, above, below or beside it.
 
 use rasterscope::inspect::{Detail, Explanation};
-use rasterscope::raster::{PixelCoverage, SampleRate};
+use rasterscope::raster::{PixelCoverage, ResolveFilter, SampleRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions};
@@ -440,4 +440,59 @@ fn samples_on_an_edge_are_told_by_the_rules_in_force() {
     );
     let told = told_of(body, &by(Rules::Course), [8, 5]);
     assert!(told.missed.is_empty(), "every edge owns its line: {:?}", told.missed);
+}
+
+/// An image is two triangles: the sample on their common edge is one's, and that is no miss of the image.
+#[test]
+fn what_is_missed_of_an_image_is_a_triangle_of_it() {
+    let image = "<image width='20' height='20' preserveAspectRatio='none' href='data:image/png;base64,\
+                 iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=='/>";
+    let told = told_of(image, &at_rate(1), [10, 9]);
+    let lines = told.missed_lines();
+    assert!(
+        lines.iter().all(|line| line.starts_with("triangle of image")),
+        "{lines:?}"
+    );
+    assert_eq!(told.missed.iter().filter(|missed| missed.part).count(), lines.len());
+    assert!(!lines.is_empty(), "one of them has no sample");
+}
+
+/// The truth is drawn by the same code, and lacks what that does not draw.
+#[test]
+fn what_is_not_drawn_is_not_part_of_the_truth() {
+    let blurred = "<filter id='f'><feGaussianBlur stdDeviation='2'/></filter><rect x='5' y='5' width='10' height='10' filter='url(#f)'/>";
+    let told = told_of(blurred, &at_rate(1), [3, 9]);
+    let lines = told.help_lines();
+    let expected = "The truth is that of what is drawn: filter (line 1) in the document is not.";
+    assert!(lines.iter().any(|line| line == expected), "{lines:?}");
+    let plain = hints("<rect x='5' y='5' width='10' height='10'/>", &at_rate(1), [3, 9]);
+    assert!(!plain.contains("is not"), "{plain}");
+}
+
+#[test]
+fn the_truth_under_a_filter_says_so() {
+    let settings = RenderSettings {
+        resolve_filter: ResolveFilter::Mitchell,
+        ..at_rate(16)
+    };
+    let bar = "<rect x='5' y='5' width='10' height='10'/>";
+    let told = hints(bar, &settings, [18, 18]);
+    assert!(told.contains("(256 samples under the same mitchell filter)"), "{told}");
+    assert!(
+        hints(bar, &at_rate(16), [18, 18]).contains("(256 samples)"),
+        "no filter to tell of"
+    );
+}
+
+#[test]
+fn too_much_to_draw_again_is_told() {
+    let corners: Vec<String> = (0..600_000).map(|i| format!("{},{} ", i % 20, (i / 7) % 19)).collect();
+    let polygon = format!("<polygon points='{}'/>", corners.concat());
+    let told = told_of(&polygon, &at_rate(1), [10, 9]);
+    assert_eq!(told.truth, None);
+    let lines = told.help_lines();
+    assert!(
+        lines.len() == 1 && lines[0].starts_with("No setting was tried: 600"),
+        "{lines:?}"
+    );
 }

@@ -326,6 +326,12 @@ fn inspector_samples_of_the_inspected_pixel() {
             "the pixel is the mean of its samples"
         );
     }
+    session.run(set("coverage", "exact"));
+    assert!(
+        session.viewer.inspector().pixel_samples().is_empty(),
+        "areas are covered, without samples"
+    );
+    session.run(set("coverage", "sampled"));
     session.keys(&["Esc", "Esc"]);
     assert!(
         session.viewer.inspector().pixel_samples().is_empty(),

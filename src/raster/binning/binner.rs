@@ -576,6 +576,42 @@ mod tests {
         }
     }
 
+    /// A square on all of the frame of which a small clip path leaves little.
+    #[test]
+    fn what_is_clipped_is_only_in_the_tiles_that_its_clip_path_leaves() {
+        let settings = RasterSettings::default();
+        let context = ListContext::new([1000, 1000], &settings);
+        let black = Paint::solid(Rgba::BLACK);
+        let square = |from: f64, to: f64| {
+            let corners = [[from, from], [to, from], [to, to], [from, to]];
+            Polygon::new([corners.map(DVec2::from)], FillRule::NonZero)
+        };
+        let rows = Span {
+            start: 0,
+            end: context.tiles.rows.cast_signed(),
+        };
+        for is_told in [false, true] {
+            let mut builder = ChunkBuilder::new(&context, 9);
+            if is_told {
+                builder = builder.with_hidden();
+            }
+            builder.begin_layer();
+            builder.polygon(&square(1.0, 999.0), |point| point, &black);
+            builder.begin_layer();
+            builder.polygon(&square(5.0, 15.0), |point| point, &black);
+            builder.end_layer(Compositing::mask(false));
+            builder.end_layer(Compositing::with_opacity(1.0));
+            let mut chunks = [builder.finish()];
+            measure_layers(&mut chunks, &context);
+            let mut counts = vec![0; (context.tiles.columns * context.tiles.rows) as usize];
+            Binner::new(&chunks[0], &context, rows).each(&Vec::new().into(), |tile, _| counts[tile] += 1);
+            assert_eq!(counts[0], 6, "both squares, and two layers");
+            let others = counts[1..].iter().filter(|count| **count > 0).count();
+            // Who asks what was painted is told of what was clipped, too.
+            assert_eq!(others > 0, is_told, "{others} other tiles");
+        }
+    }
+
     #[test]
     fn tiles_get_the_commands_that_cover_samples_in_them() {
         let texture = noise();

@@ -47,7 +47,7 @@ pub(crate) struct Stamp {
 pub(crate) struct LayerMark {
     /// The pixels that the layer may change.
     pub(crate) area: SpanRect,
-    /// At the begin of the layer, whether what is in it counts in that area only: a mask's does.
+    /// At the begin of the layer, whether what is in it counts in that area only: a mask's does, and so does what is masked.
     pub(crate) limits: bool,
     /// At the end of the layer, how it is composited.
     pub(crate) compositing: Option<Compositing>,
@@ -91,6 +91,8 @@ pub struct Chunk {
     pub(crate) triangle_count: u64,
     /// Layers that earlier chunks have left open.
     pub(crate) layers_open: Vec<LayerMark>,
+    /// Whether it holds what does not show, too, for those who ask what was painted.
+    pub(crate) keeps_hidden: bool,
     /// Whether a colour lets what is below it shine through; textures are not looked at.
     pub(crate) translucent: bool,
 }
@@ -178,6 +180,9 @@ impl Chunk {
 
 /// Tells every layer which pixels it touches, so that tiles beside it need not open it.
 ///
+/// What is clipped or masked counts where the clip path or mask holds anything, which documents with thousands of small clip paths
+/// around large shapes live on.
+///
 /// Layers may span chunks, so this looks at all of them in order; without layers it does nothing.
 pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     if !chunks.iter().any(Chunk::has_layers) {
@@ -193,6 +198,7 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
             end: context.size[1].cast_signed(),
         },
     };
+    let keeps_hidden = chunks.iter().any(|chunk| chunk.keeps_hidden);
     let mut open: Vec<(usize, usize, SpanRect)> = Vec::new();
     let mut open_before = Vec::with_capacity(chunks.len());
     for at in 0..chunks.len() {
@@ -206,15 +212,23 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
                         continue;
                     };
                     let compositing = chunks[at].layers[end as usize].compositing;
-                    if !compositing.is_none_or(Compositing::keeps_below) {
+                    let keeps_below = compositing.is_none_or(Compositing::keeps_below);
+                    let held = area;
+                    if !keeps_below {
                         // It is felt wherever there is anything below it, and nowhere else.
                         area = open.last().map_or(frame, |(_, _, outer)| *outer);
                         chunks[begin_chunk].layers[begin].limits = true;
                     }
                     chunks[begin_chunk].layers[begin].area = area;
                     chunks[at].layers[end as usize].area = area;
-                    if let Some((_, _, outer)) = open.last_mut() {
-                        *outer = outer.union(area);
+                    if let Some((outer_chunk, outer_begin, outer)) = open.last_mut() {
+                        if keeps_below {
+                            *outer = outer.union(area);
+                        } else if !keeps_hidden {
+                            let left = outer.intersection(held);
+                            *outer = if left.is_empty() { SpanRect::EMPTY } else { left };
+                            chunks[*outer_chunk].layers[*outer_begin].limits = true;
+                        }
                     }
                 }
                 painted => {

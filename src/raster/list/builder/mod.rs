@@ -135,6 +135,7 @@ impl<'a> ChunkBuilder<'a> {
     #[must_use]
     pub fn with_hidden(mut self) -> Self {
         self.hidden = Hidden::Kept;
+        self.chunk.keeps_hidden = true;
         self
     }
 

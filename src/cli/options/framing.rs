@@ -23,7 +23,8 @@ pub(in crate::cli) struct PictureOptions {
 /// What part of a scene is drawn, and on how many threads.
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct FramingOptions {
-    /// Which part of the scene: a name, or centre, pixels per canvas unit and degrees
+    /// Which part of the scene: all of it with a margin and an outline; `canvas`, which fills the picture, stretched where proportions
+    /// differ; or centre, pixels per canvas unit and degrees
     #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(in crate::cli) view: View,
     /// Threads that draw or compare [default: one per core]

@@ -185,7 +185,7 @@ pub(super) const PIXELS: &[ValueNote] = &[
         "coverage",
         "exact",
         "Paints by the exact area that a primitive covers, as renderers of vector graphics do",
-        "twice the time of 16 samples, ten times that of many curves; one colour per pixel, and seams between neighbours",
+        "about the time of 16 samples, several times that where many edges cross; one colour per pixel, and seams between neighbours",
     )
     .beside(
         ["30_exact_greys", "sample-rate 16", "coverage sampled"],

@@ -81,16 +81,31 @@ fn draw(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usize>) {
     let radius = (SIDE / across * 0.32).clamp(2.0, 14.0);
     for (number, sample) in explanation.samples.iter().enumerate() {
         let at = at_part(rect, sample.position);
-        painter.circle_filled(at, radius, opaque(sample.bytes));
         let (width, color) = if told == Some(number) {
             (2.5, OUTLINE[1].1)
         } else {
             (1.0, Color32::from_gray(if is_dark(sample.bytes) { 200 } else { 60 }))
         };
-        painter.circle_stroke(at, radius, Stroke::new(width, color));
+        let stroke = Stroke::new(width, color);
+        if explanation.exact {
+            // No sample: where colours are computed.
+            painter.hline(at.x - radius / 2.0..=at.x + radius / 2.0, at.y, stroke);
+            painter.vline(at.x, at.y - radius / 2.0..=at.y + radius / 2.0, stroke);
+            continue;
+        }
+        let radius = radius * heaviness(explanation.samples.iter().map(|other| other.position), sample.position);
+        painter.circle_filled(at, radius, opaque(sample.bytes));
+        painter.circle_stroke(at, radius, stroke);
     }
     let line = Stroke::new(1.0, ui.visuals().weak_text_color());
     ui.painter().rect_stroke(rect, 0.0, line, StrokeKind::Outside);
+}
+
+/// How much larger a sample is drawn in whose place there are several, which is how those of weighted patterns weigh more: their area
+/// is what they weigh.
+fn heaviness(places: impl Iterator<Item = [f64; 2]>, own: [f64; 2]) -> f32 {
+    let own = own.map(f64::to_bits);
+    (places.filter(|place| place.map(f64::to_bits) == own).count() as f32).sqrt()
 }
 
 fn at_part(rect: Rect, position: [f64; 2]) -> Pos2 {
@@ -100,4 +115,24 @@ fn at_part(rect: Rect, position: [f64; 2]) -> Pos2 {
 #[expect(clippy::cast_possible_truncation, reason = "parts of a pixel")]
 fn place([x, y]: [f64; 2]) -> Vec2 {
     vec2(x as f32, y as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_at_one_place_are_drawn_as_heavy_as_they_are() {
+        let places = [
+            [0.25, 0.5],
+            [0.5, 0.5],
+            [0.25, 0.5],
+            [0.25, 0.75],
+            [0.25, 0.5],
+            [0.25, 0.5],
+        ];
+        let of = |own: [f64; 2]| heaviness(places.into_iter(), own);
+        assert!((of([0.25, 0.5]) - 2.0).abs() < 1e-6, "four times the area of one");
+        assert!((of([0.5, 0.5]) - 1.0).abs() < 1e-6, "one");
+    }
 }

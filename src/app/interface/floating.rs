@@ -14,7 +14,7 @@ use super::look::{self, CONTROL};
 use super::pin;
 use super::places::{card_area, insets, points};
 use crate::raster::SamplePattern;
-use crate::viewer::picture::{self, About, Told, changed_words};
+use crate::viewer::picture::{self, About, Told, changed_words, reads_textures};
 use crate::viewer::{Arrangement, Command, InspectorCommand, Other, Toggle, ViewCommand, Viewer, WindowCommand};
 
 /// How far a pointer moves that rests no more, in points.
@@ -85,20 +85,21 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
         SamplePattern::Grid => String::new(),
         other => format!(", {}", other.name()),
     };
-    let mut lines = vec![
-        if render.covers_areas() {
-            "exact areas, one colour per pixel".to_owned()
-        } else {
-            let samples = if count == 1 { "sample" } else { "samples" };
-            format!("{count} {samples} per pixel{pattern}")
-        },
-        format!(
+    let mut lines = vec![if render.covers_areas() {
+        "exact areas, one colour per pixel".to_owned()
+    } else {
+        let samples = if count == 1 { "sample" } else { "samples" };
+        format!("{count} {samples} per pixel{pattern}")
+    }];
+    let scene = viewer.scene_list().scene();
+    if reads_textures(scene) {
+        lines.push(format!(
             "pixel {}, level {}",
             render.pixel_sampling.name(),
             render.level_sampling.name()
-        ),
-    ];
-    let words = changed_words(viewer.settings(), About::Textures);
+        ));
+    }
+    let words = changed_words(viewer.settings(), About::Textures, scene);
     if !words.is_empty() {
         lines.push(words.join(", "));
     }
@@ -106,7 +107,8 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
     for setting in others {
         // The pattern stands beside the number of samples, and in place of both stands that areas are exact.
         let is_told = setting.option == "pattern" || (setting.option == "coverage" && render.covers_areas());
-        if !is_told && !setting.is_default(viewer.settings()) {
+        let counts = setting.idle(viewer.settings(), scene).is_none();
+        if !is_told && counts && !setting.is_default(viewer.settings()) {
             lines.push(format!("{}: {}", setting.label, setting.shown(viewer.settings())));
         }
     }

@@ -1,7 +1,5 @@
 //! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
-use std::sync::Arc;
-
 use egui::{Align, Color32, DragValue, Layout, RichText, Ui, vec2};
 
 use super::controls::{Offered, choice, choice_of, command_button, drop_down, finite, gave_up, row, tip};
@@ -45,11 +43,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// Settings below each other; those without a label stand beside the one before them.
 pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], viewer: &Viewer, commands: &mut Vec<Command>) {
     let now = viewer.settings();
-    let scene = viewer
-        .scene_list()
-        .current()
-        .and_then(SceneEntry::scene)
-        .map(Arc::as_ref);
+    let scene = viewer.scene_list().scene();
     let shown = settings.iter().filter_map(|setting| {
         Some(ShownSetting {
             setting,

@@ -4,7 +4,8 @@ use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKi
 
 use super::controls::tip;
 use super::menu;
-use crate::viewer::picture::{About, changed_words};
+use crate::scene::Scene;
+use crate::viewer::picture::{About, changed_words, reads_textures};
 use crate::viewer::{
     Arrangement, Command, CommandSpec, InspectorCommand, SceneEntry, Settings, Status, Toggle, Viewer, WindowCommand,
 };
@@ -125,7 +126,7 @@ fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
         word(ui, "…", numbers(), true);
         ui.add_space(4.0);
     }
-    field(ui, "user", &status.user_text());
+    field(ui, "canvas", &status.user_text());
 }
 
 /// A value with its name before it, both or none.
@@ -171,7 +172,7 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         words.push("B".to_owned());
     }
     if let Some(settings) = settings_in_window(viewer) {
-        words.extend(settings_words(&settings));
+        words.extend(settings_words(&settings, viewer.scene_list().scene()));
     }
     for word in words {
         let font = FontId::proportional(11.0);
@@ -185,21 +186,23 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
     }
 }
 
-/// How the picture in the window is sampled.
-fn settings_words(settings: &Settings) -> Vec<String> {
+/// How the picture of this scene in the window is sampled.
+fn settings_words(settings: &Settings, scene: Option<&Scene>) -> Vec<String> {
     let render = &settings.render;
     let mut words = Vec::new();
     // Areas have no samples.
     if !render.covers_areas() {
         words.push(format!("{}×", render.sample_rate.samples()));
     }
-    words.extend(changed_words(settings, About::Samples));
-    words.push(format!(
-        "{} / {}",
-        render.pixel_sampling.name(),
-        render.level_sampling.name()
-    ));
-    words.extend(changed_words(settings, About::Textures));
+    words.extend(changed_words(settings, About::Samples, scene));
+    if reads_textures(scene) {
+        words.push(format!(
+            "{} / {}",
+            render.pixel_sampling.name(),
+            render.level_sampling.name()
+        ));
+    }
+    words.extend(changed_words(settings, About::Textures, scene));
     words
 }
 

@@ -2,10 +2,11 @@
 
 use crate::color::ResolveSpace;
 use crate::render::RenderSettings;
-use crate::scene::DialectChoice;
+use crate::scene::{DialectChoice, Scene};
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::{Arrangement, Other};
 use crate::viewer::library::dialects::WantedDialects;
+use crate::viewer::settings::picture::NO_EFFECT;
 use crate::viewer::settings::{Settings, picture};
 
 /// What the truth is whose samples are averaged so.
@@ -17,15 +18,47 @@ pub(in crate::viewer) fn truth_words(resolve: ResolveSpace) -> String {
     format!("256 samples in {values}")
 }
 
-/// A setting by its name, its value in A, its value in B.
-type Differing = (&'static str, String, String);
+/// A setting whose value in A is not that in B.
+struct Differing {
+    name: &'static str,
+    /// What is told of A, and of B: nothing where the value has no effect.
+    told: [Option<String>; 2],
+}
 
-/// What differs.
+impl Differing {
+    /// Such as `sample rate 1 | 16`, with a dash where there is nothing to tell.
+    fn words(&self) -> String {
+        let [a, b] = self.told.each_ref().map(|told| told.as_deref().unwrap_or("\u{2013}"));
+        format!("{} {a} | {b}", self.name)
+    }
+}
+
+/// What differs; values without effect are told only where nothing else is.
 fn differing(a: &Settings, b: &Settings) -> Vec<Differing> {
-    let unequal = picture::all().filter(|setting| setting.value(a) != setting.value(b));
-    unequal
-        .map(|setting| (setting.label, setting.shown(a), setting.shown(b)))
-        .collect()
+    let unequal = || picture::all().filter(|setting| setting.value(a) != setting.value(b));
+    let counting = unequal().map(|setting| Differing {
+        name: setting.label,
+        told: [a, b].map(|side| setting.idle(side, None).is_none().then(|| setting.shown(side))),
+    });
+    let counting: Vec<Differing> = counting
+        .filter(|differing| differing.told.iter().any(Option::is_some))
+        .collect();
+    if !counting.is_empty() {
+        return counting;
+    }
+    let idle = unequal().map(|setting| Differing {
+        name: setting.label,
+        told: [a, b].map(|side| Some(format!("{} {NO_EFFECT}", setting.shown(side)))),
+    });
+    idle.collect()
+}
+
+/// What is told of one side.
+fn words_of(side: usize, differing: &[Differing]) -> String {
+    let words = differing
+        .iter()
+        .filter_map(|setting| Some(format!("{} {}", setting.name, setting.told[side].as_ref()?)));
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Whose picture fills the frame.
@@ -88,15 +121,29 @@ impl Comparison {
         }
     }
 
-    /// Which settings of A and B differ, in words such as `sample rate 1 | 16`; `None` without B, and for a picture from
-    /// outside, whose settings nobody knows.
+    /// Which settings of A and B differ, in words such as `sample rate 1 | 16`, but for those without effect in both; `None`
+    /// without B, and for a picture from outside, whose settings nobody knows.
     pub fn words(&self, own: &Settings) -> Option<Vec<String>> {
-        let words = self.differing_settings(own)?.into_iter();
-        Some(words.map(|(name, a, b)| format!("{name} {a} | {b}")).collect())
+        Some(self.differing_settings(own)?.iter().map(Differing::words).collect())
+    }
+
+    /// What A and B share that is not at its default and has an effect, such as `sample rate 4`; `None` where that is nothing, and
+    /// where B's settings are not known or are the truth's, which no picture shares.
+    pub fn shared_words(&self, own: &Settings) -> Option<String> {
+        let Other::Settings { .. } = self.other()? else {
+            return None;
+        };
+        let b = self.settings_of_b(own)?;
+        let shared = picture::all().filter(|setting| {
+            let is_told = !setting.is_default(own) && setting.value(own) == setting.value(&b);
+            is_told && [own, &b].iter().any(|side| setting.idle(side, None).is_none())
+        });
+        let words: Vec<String> = shared.map(|setting| setting.words(own)).collect();
+        (!words.is_empty()).then(|| words.join(", "))
     }
 
     /// A against B in one line, for the window's title; `None` without B.
-    pub(in crate::viewer) fn title(&self, own: &Settings) -> Option<String> {
+    pub(in crate::viewer) fn title(&self, own: &Settings, scene: Option<&Scene>) -> Option<String> {
         let other = match self.other()? {
             Other::Settings { .. } => "B".to_owned(),
             Other::Truth(_) => "the truth".to_owned(),
@@ -105,7 +152,7 @@ impl Comparison {
         let words = match self.words(own) {
             Some(words) if words.is_empty() => vec!["the same settings".to_owned()],
             Some(words) => words,
-            None => picture::title_words(own),
+            None => picture::title_words(own, scene),
         };
         Some(format!("A against {other}: {}", words.join(", ")))
     }
@@ -113,19 +160,20 @@ impl Comparison {
     /// What A is and what B is, each for itself, such as `A: sample rate 16`; `None` without B.
     pub fn sides(&self, own: &Settings) -> Option<[String; 2]> {
         let differing = self.differing_settings(own).unwrap_or_default();
-        let a: Vec<String> = differing.iter().map(|(name, a, _)| format!("{name} {a}")).collect();
-        let b: Vec<String> = differing.iter().map(|(name, _, b)| format!("{name} {b}")).collect();
+        let [a, b] = [0, 1].map(|side| words_of(side, &differing));
         let a = match self.other()? {
             Other::Picture(_) => "A: drawn here".to_owned(),
             _ if a.is_empty() => "A".to_owned(),
-            _ => format!("A: {}", a.join(", ")),
+            _ => format!("A: {a}"),
         };
         let b = match self.other()? {
             Other::Settings { .. } if b.is_empty() => "B".to_owned(),
-            Other::Settings { .. } => format!("B: {}", b.join(", ")),
+            Other::Settings { .. } => format!("B: {b}"),
             Other::Truth(_) => {
                 let space = self.truth_space().unwrap_or(own.render.resolve);
-                format!("B: the truth, {}", truth_words(space))
+                // A's pattern stands beside it, where that is another.
+                let pattern = own.render.truth().pattern.name();
+                format!("B: the truth, {}, pattern {pattern}", truth_words(space))
             }
             Other::Picture(picture) => format!("B: {}", picture.name()),
         };
@@ -133,11 +181,15 @@ impl Comparison {
     }
 
     fn differing_settings(&self, own: &Settings) -> Option<Vec<Differing>> {
-        let other = Settings {
+        Some(differing(own, &self.settings_of_b(own)?))
+    }
+
+    /// The settings of B, where it is drawn.
+    fn settings_of_b(&self, own: &Settings) -> Option<Settings> {
+        Some(Settings {
             render: self.other_settings(own)?,
             dialect: self.own_dialect_of_b(own).unwrap_or(own.dialect),
             ..*own
-        };
-        Some(differing(own, &other))
+        })
     }
 }

@@ -66,8 +66,9 @@ impl<'a> Both<'a> {
     pub fn title(&self) -> String {
         let name = self.scene_list.current();
         let name = name.map_or("no scene", |entry| entry.label.as_str());
-        let words = self.ab.title(self.settings);
-        let words = words.unwrap_or_else(|| title_words(self.settings).join(", "));
+        let scene = self.scene_list.scene();
+        let words = self.ab.title(self.settings, scene);
+        let words = words.unwrap_or_else(|| title_words(self.settings, scene).join(", "));
         plain::short_line(&format!("{name} - {words} - Rasterscope"), MAX_TITLE)
     }
 

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::geometry::View;
-use crate::scene::Dialect;
+use crate::scene::{Dialect, Scene};
 use crate::viewer::library::readers::Readers;
 use crate::viewer::library::{SceneEntry, SceneSource};
 
@@ -119,6 +120,11 @@ impl SceneList {
     /// The scene that is shown; `None` only while the list is empty.
     pub fn current(&self) -> Option<&SceneEntry> {
         self.scenes.get(self.current)
+    }
+
+    /// Its scene, as A reads it, once that was read.
+    pub fn scene(&self) -> Option<&Scene> {
+        self.current()?.scene().map(Arc::as_ref)
     }
 
     pub(in crate::viewer) fn current_mut(&mut self) -> Option<&mut SceneEntry> {

@@ -3,12 +3,16 @@
 //! Keys, palette, panel, command line, records, lessons, captions and the axes of sheets know settings only by their rows: a
 //! value is its text, such as `16` or `bilinear`, in all of them.
 
-pub use super::row::{About, Control, PanelRow, PictureSetting, SettingChange, SettingCommand, Told, Values};
+pub(in crate::viewer) use super::row::NO_EFFECT;
+pub use super::row::{
+    About, Control, PanelRow, PictureSetting, SettingChange, SettingCommand, Told, Values, reads_textures,
+};
 
 use std::path::Path;
 
 use super::table::picture_settings;
 use super::{Settings, values};
+use crate::scene::Scene;
 
 /// The settings, in the order of menus and of the command line.
 pub fn all() -> impl Iterator<Item = &'static PictureSetting> {
@@ -44,22 +48,24 @@ pub fn known(name: &str) -> Result<&'static PictureSetting, String> {
 }
 
 /// The settings about this that are not at their defaults and that are not told always, in few words each, such as `pattern
-/// halton`.
-pub fn changed_words(settings: &Settings, about: About) -> Vec<String> {
+/// halton`; none that has no effect on a picture of this scene.
+pub fn changed_words(settings: &Settings, about: About, scene: Option<&Scene>) -> Vec<String> {
     let told = told(Told::IfChanged, about).filter(|setting| !setting.is_default(settings));
+    let told = told.filter(|setting| setting.idle(settings, scene).is_none());
     told.map(|setting| setting.words(settings)).collect()
 }
 
 /// The same after those that are told always.
-pub fn told_words(settings: &Settings, about: About) -> Vec<String> {
-    let always = told(Told::Always, about).map(|setting| setting.words(settings));
-    always.chain(changed_words(settings, about)).collect()
+pub fn told_words(settings: &Settings, about: About, scene: Option<&Scene>) -> Vec<String> {
+    let always = told(Told::Always, about).filter(|setting| setting.idle(settings, scene).is_none());
+    let always = always.map(|setting| setting.words(settings));
+    always.chain(changed_words(settings, about, scene)).collect()
 }
 
 /// What a window's title tells.
-pub(in crate::viewer) fn title_words(settings: &Settings) -> Vec<String> {
+pub(in crate::viewer) fn title_words(settings: &Settings, scene: Option<&Scene>) -> Vec<String> {
     let all = [About::Samples, About::Textures].into_iter();
-    all.flat_map(|about| told_words(settings, about)).collect()
+    all.flat_map(|about| told_words(settings, about, scene)).collect()
 }
 
 fn told(told: Told, about: About) -> impl Iterator<Item = &'static PictureSetting> {
@@ -236,13 +242,56 @@ mod tests {
 
     #[test]
     fn words_are_short_and_only_where_something_differs() {
-        assert_eq!(changed_words(&Settings::default(), About::Samples), [""; 0], "nothing");
         assert_eq!(
-            changed_words(&after("pattern", "halton"), About::Samples),
+            changed_words(&Settings::default(), About::Samples, None),
+            [""; 0],
+            "nothing"
+        );
+        assert_eq!(
+            changed_words(&after("pattern", "halton"), About::Samples, None),
             ["pattern halton"]
         );
-        assert_eq!(changed_words(&after("lod-bias", "0.5"), About::Textures), ["bias +0.5"]);
-        assert_eq!(told_words(&Settings::default(), About::Samples), ["sample rate 1"]);
+        assert_eq!(
+            told_words(&Settings::default(), About::Samples, None),
+            ["sample rate 1"]
+        );
+    }
+
+    #[test]
+    fn words_tell_what_decides_the_picture() {
+        let after = |changes: &str| {
+            let mut settings = Settings::default();
+            apply_all(&super::changes(changes).expect("settings"), &mut settings);
+            settings
+        };
+        let biased = after("level-sampling linear, lod-bias 0.5");
+        assert_eq!(changed_words(&biased, About::Textures, None), ["bias +0.5"]);
+        let zero = after("lod-bias 0.5");
+        assert_eq!(
+            changed_words(&zero, About::Textures, None),
+            [""; 0],
+            "only level zero is read"
+        );
+        let bias = known("lod-bias").expect("a setting");
+        assert_eq!(bias.candid_words(&zero), "bias +0.5 (no effect)", "asked for");
+        assert_eq!(bias.candid_words(&biased), "bias +0.5", "it has one");
+        let exact = after("coverage exact, sample-rate 4, pattern sobol");
+        assert_eq!(
+            told_words(&exact, About::Samples, None),
+            ["coverage exact"],
+            "no samples"
+        );
+        let area = after("level-sampling ewa, anisotropy 4, lod-by area");
+        assert_eq!(
+            told_words(&area, About::Textures, None).len(),
+            2,
+            "pixel and level sampling alone"
+        );
+        let fill = "<svg xmlns='http://www.w3.org/2000/svg'/>";
+        let options = crate::scene::ReadOptions::default();
+        let plain = crate::scene::read(fill.as_bytes(), "plain.svg", options, &crate::viewer::gallery::Textures);
+        let plain = plain.expect("a scene");
+        assert_eq!(told_words(&area, About::Textures, Some(&plain)), [""; 0], "no texture");
     }
 
     #[test]

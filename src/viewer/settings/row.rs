@@ -13,6 +13,9 @@ use crate::viewer::key_chords::Chord;
 /// Longest value that is quoted as it was written, in characters.
 const MAX_WRITTEN: usize = 80;
 
+/// Said behind a value that has no effect beside those of the other settings, where it is told all the same.
+pub(in crate::viewer) const NO_EFFECT: &str = "(no effect)";
+
 /// A setting that decides the pixels of a picture, besides scene and view.
 pub struct PictureSetting {
     /// The option's name without its dashes.
@@ -208,6 +211,12 @@ enum To {
     Step(f64),
 }
 
+/// Whether a picture of this scene may read textures; one that is not known may.
+pub fn reads_textures(scene: Option<&Scene>) -> bool {
+    // The tiles of patterns are read as textures are.
+    scene.is_none_or(|scene| !scene.textures.is_empty() || !scene.patterns.is_empty())
+}
+
 impl PictureSetting {
     /// The value as text, as [`PictureSetting::to`] takes it.
     pub fn value(&self, settings: &Settings) -> String {
@@ -227,9 +236,7 @@ impl PictureSetting {
     /// Why its value makes no difference to a picture of this scene with these settings, in words that go behind "no effect:";
     /// `None` where it makes one, or may.
     pub fn idle(&self, settings: &Settings, scene: Option<&Scene>) -> Option<&'static str> {
-        // The tiles of patterns are read as textures are.
-        let reads_none = scene.is_some_and(|scene| scene.textures.is_empty() && scene.patterns.is_empty());
-        let is_spare = reads_none && self.about == About::Textures;
+        let is_spare = self.about == About::Textures && !reads_textures(scene);
         is_spare
             .then_some("this scene has no texture")
             .or_else(|| (self.idle)(&settings.render))
@@ -238,6 +245,15 @@ impl PictureSetting {
     /// Such as `sample rate 16` or `bias +1`.
     pub fn words(&self, settings: &Settings) -> String {
         format!("{} {}", self.label, self.shown(settings))
+    }
+
+    /// The same, and that it has no effect where it has none: for what is told in spite of that.
+    pub fn candid_words(&self, settings: &Settings) -> String {
+        let words = self.words(settings);
+        match self.idle(settings, None) {
+            Some(_) => format!("{words} {NO_EFFECT}"),
+            None => words,
+        }
     }
 
     /// The value as people read it.

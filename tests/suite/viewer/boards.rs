@@ -170,7 +170,10 @@ fn board_truth_is_averaged_as_a_is_or_as_was_chosen() {
     check(&mut session, ResolveSpace::Stored, "256 samples in stored values");
     session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     let sides = session.viewer.ab().sides(session.viewer.settings()).unwrap();
-    assert_eq!(sides[1], "B: the truth, 256 samples in stored values", "of B as well");
+    assert_eq!(
+        sides[1], "B: the truth, 256 samples in stored values, pattern hammersley",
+        "of B as well"
+    );
     session.run(Command::Ab(AbCommand::Compare(Against::Truth(Some(
         ResolveSpace::Linear,
     )))));

@@ -4,7 +4,8 @@ use crate::plain;
 use crate::viewer::export::sheet::axes::{Axis, Choice};
 use crate::viewer::export::spec::PictureSpec;
 use crate::viewer::library::SceneSource;
-use crate::viewer::settings::picture;
+use crate::viewer::settings::picture::NO_EFFECT;
+use crate::viewer::settings::{Settings, picture};
 
 /// Settings of samples, by their options.
 const PATTERN: &str = "pattern";
@@ -14,7 +15,7 @@ const MAX_NAME: usize = 200;
 
 /// What is said of a single picture.
 pub fn caption_of(spec: &PictureSpec) -> String {
-    let settings = shared_words(spec, |_| false);
+    let settings = shared_words(spec, |name| has_no_effect(spec, name));
     let what = match settings.as_str() {
         "" => title(&spec.scene),
         settings => format!("{} with {settings}", title(&spec.scene)),
@@ -25,7 +26,8 @@ pub fn caption_of(spec: &PictureSpec) -> String {
 
 /// What a measure of a picture says of it: the settings that differ from their defaults, size and view.
 pub fn conditions_of(spec: &PictureSpec) -> String {
-    let settings = Some(shared_words(spec, |_| false)).filter(|settings| !settings.is_empty());
+    let settings = shared_words(spec, |name| has_no_effect(spec, name));
+    let settings = Some(settings).filter(|settings| !settings.is_empty());
     let parts: Vec<String> = settings.into_iter().chain(seen(spec, "")).collect();
     let mut said = format!("{}.", parts.join(". "));
     if let Some(first) = said.get_mut(..1) {
@@ -39,6 +41,10 @@ pub fn conditions_of(spec: &PictureSpec) -> String {
 pub(in crate::viewer) struct Labels {
     /// Values of the axis of patterns, and the samples of their panels.
     rates: Vec<(String, u32)>,
+    /// Names and values of axes that have no effect in any of their panels.
+    idle: Choice,
+    /// Settings that have none in any panel.
+    idle_everywhere: Vec<&'static str>,
 }
 
 impl Labels {
@@ -59,6 +65,11 @@ impl Labels {
             } else {
                 Vec::new()
             },
+            idle: idle_values(panels),
+            idle_everywhere: picture::all()
+                .map(|setting| setting.option)
+                .filter(|name| panels.iter().all(|(_, spec)| has_no_effect(spec, name)))
+                .collect(),
         }
     }
 
@@ -73,15 +84,42 @@ impl Labels {
         }
     }
 
-    /// A setting and its value, such as `pixel sampling nearest`.
+    /// A setting and its value, such as `pixel sampling nearest`; a value without effect in all panels that have it says so.
     pub(in crate::viewer) fn words(&self, axis: &Axis, value: &str) -> String {
-        format!("{} {}", axis.title(), self.value(axis, value))
+        let is_idle = self
+            .idle
+            .iter()
+            .any(|(name, known)| (name, known.as_str()) == (&axis.name, value));
+        self.words_of(axis, value, is_idle)
     }
 
-    /// Whether they tell a setting that is no axis.
-    fn tell(&self, option: &str) -> bool {
-        option == RATE && !self.rates.is_empty()
+    fn words_of(&self, axis: &Axis, value: &str, is_idle: bool) -> String {
+        let words = format!("{} {}", axis.title(), self.value(axis, value));
+        if is_idle { format!("{words} {NO_EFFECT}") } else { words }
     }
+
+    /// Whether a setting that is no axis is told by them, or need not be told.
+    fn tell(&self, option: &str) -> bool {
+        (option == RATE && !self.rates.is_empty()) || self.idle_everywhere.contains(&option)
+    }
+}
+
+/// Whether the value of a setting makes no difference to a picture, whatever its scene.
+fn has_no_effect(spec: &PictureSpec, option: &str) -> bool {
+    let settings = Settings::of(spec.render, spec.dialect);
+    picture::find(option).is_some_and(|setting| setting.idle(&settings, None).is_some())
+}
+
+/// Names and values of axes that have no effect in any of their panels.
+fn idle_values(panels: &[(Choice, PictureSpec)]) -> Choice {
+    let mut idle = Choice::new();
+    for chosen in panels.iter().flat_map(|(choice, _)| choice) {
+        let mut with = panels.iter().filter(|(choice, _)| choice.contains(chosen));
+        if !idle.contains(chosen) && with.all(|(_, spec)| has_no_effect(spec, &chosen.0)) {
+            idle.push(chosen.clone());
+        }
+    }
+    idle
 }
 
 /// What differs between the panels of a sheet and what all of them share.
@@ -122,15 +160,15 @@ pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], labels: &L
     format!("{}.", parts.collect::<Vec<_>>().join(". "))
 }
 
-/// What tells a panel from the others.
+/// What tells a panel from the others; a value without effect in this one says so.
 pub(in crate::viewer) fn difference<'a>(
     axes: impl Iterator<Item = &'a Axis>,
-    choice: &Choice,
+    (choice, spec): &(Choice, PictureSpec),
     labels: &Labels,
 ) -> String {
     let words = axes.filter_map(|axis| {
         let (_, value) = choice.iter().find(|(name, _)| *name == axis.name)?;
-        Some(labels.words(axis, value))
+        Some(labels.words_of(axis, value, has_no_effect(spec, &axis.name)))
     });
     words.collect::<Vec<_>>().join(", ")
 }
@@ -180,7 +218,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::View;
-    use crate::raster::SamplePattern;
+    use crate::raster::{PixelCoverage, SamplePattern};
     use crate::render::RenderSettings;
     use crate::scene::DialectChoice;
 
@@ -199,5 +237,8 @@ mod tests {
         spec.render.pattern = SamplePattern::Sobol;
         let said = "Pattern sobol. 200 \u{d7} 160 pixels, view default.";
         assert_eq!(conditions_of(&spec), said, "a setting");
+        spec.render.coverage = PixelCoverage::Exact;
+        let said = "Coverage exact. 200 \u{d7} 160 pixels, view default.";
+        assert_eq!(conditions_of(&spec), said, "where no sample lies, no pattern is told");
     }
 }

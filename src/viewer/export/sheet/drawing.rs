@@ -105,7 +105,7 @@ impl SheetRequest {
     /// What tells each panel apart.
     pub(in crate::viewer) fn words(&self) -> impl Iterator<Item = String> {
         let panels = self.panels.iter();
-        panels.map(|(choice, _)| difference(self.axes.axes(), choice, &self.labels))
+        panels.map(|panel| difference(self.axes.axes(), panel, &self.labels))
     }
 
     /// About how many pixels all panels and the whole of them have.
@@ -150,7 +150,7 @@ impl SheetRequest {
     fn panels(&self, scenes: SceneReader<'_>) -> Result<Vec<Panel>, String> {
         let mut known: Vec<(DialectChoice, Arc<Scene>)> = Vec::new();
         let mut panels = Vec::new();
-        for (choice, spec) in &self.panels {
+        for panel @ (_, spec) in &self.panels {
             let read = known.iter().find(|(dialect, _)| *dialect == spec.dialect);
             let scene = if let Some((_, scene)) = read {
                 Arc::clone(scene)
@@ -175,7 +175,7 @@ impl SheetRequest {
                 spec,
                 scene,
                 frame,
-                words: difference(self.axes.axes(), choice, &self.labels),
+                words: difference(self.axes.axes(), panel, &self.labels),
             });
         }
         Ok(panels)
@@ -275,6 +275,62 @@ fn grid(lists: &AxisLists) -> (usize, bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::View;
+    use crate::viewer::Settings;
+    use crate::viewer::library::SceneSource;
+    use crate::viewer::settings::picture::SettingChange;
+
+    #[test]
+    fn values_without_effect_say_so_in_panels_and_heads() {
+        let axes = [
+            ("coverage", "exact,sampled"),
+            ("pattern", "sobol,grid"),
+            ("seed", "0,1"),
+        ];
+        let lists: Vec<Axis> = axes
+            .iter()
+            .map(|(name, values)| Axis::of(name, values).expect("a list"))
+            .collect();
+        let spec = |choice: &Choice| {
+            let mut settings = Settings::default();
+            for (name, value) in choice {
+                SettingChange::of(name, value)?.apply(&mut settings);
+            }
+            Ok(PictureSpec {
+                scene: SceneSource::from_address(Path::new("gallery:basic/test4.svg")),
+                size: [20, 16],
+                view: View::Default,
+                render: settings.render,
+                dialect: settings.dialect,
+                insets: Vec::new(),
+                legend: false,
+            })
+        };
+        let request = |lists: &[Axis]| SheetRequest::new(lists.iter().cloned().collect(), spec).expect("panels");
+        let both = request(&lists[..2]);
+        let words: Vec<String> = both.words().collect();
+        assert_eq!(
+            words[..2],
+            [
+                "coverage exact, pattern sobol (no effect)",
+                "coverage sampled, pattern sobol"
+            ],
+            "no samples where areas are covered"
+        );
+        let plan = both.plan(both.first().expect("a panel"));
+        assert_eq!(
+            plan.rows,
+            ["pattern sobol", "pattern grid"],
+            "it has one in some panels"
+        );
+        let seeds = request(&lists[2..]);
+        let plan = seeds.plan(seeds.first().expect("a panel"));
+        assert_eq!(
+            plan.columns,
+            ["seed 0 (no effect)", "seed 1 (no effect)"],
+            "a grid has no chance in it"
+        );
+    }
 
     #[test]
     fn limit_is_that_of_the_help_page() {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::figure::{Destination, Figure, Guard, NewFile, Unwritable, encode_png, html, latex, markdown, save_files};
 use crate::viewer::export::sheet::captions::title;
 use crate::viewer::export::sheet::drawing::{Panel, Sheet, SheetRequest};
+use crate::viewer::settings::picture::NO_EFFECT;
 
 /// What documents say about the sheet: for Markdown, HTML and LaTeX.
 const SNIPPETS: [&str; 3] = ["figures.md", "figures.html", "figures.tex"];
@@ -125,6 +126,7 @@ fn panel_name(number: usize, words: &str) -> String {
         }
     };
     let words: String = words
+        .replace(&format!(" {NO_EFFECT}"), "")
         .replace(", ", "_")
         .replace(['(', ')'], "")
         .chars()

@@ -123,6 +123,42 @@ fn comparison_with_the_truth() {
 }
 
 #[test]
+fn comparison_tells_what_decides_the_pictures() {
+    let mut session = Session::open(&[TRIANGLES], WINDOW);
+    session.run(set("pattern", "r2"));
+    session.run(set("sample-rate", "4"));
+    let against = Against::from_text("coverage exact, sample-rate 16").unwrap();
+    session.run(Command::Ab(AbCommand::Compare(against)));
+    let settings = *session.viewer.settings();
+    let ab = session.viewer.ab();
+    let sides = ab.sides(&settings).unwrap();
+    assert_eq!(sides[0], "A: sample rate 4, coverage sampled");
+    assert_eq!(sides[1], "B: coverage exact", "which has no samples");
+    let words = ab.words(&settings).unwrap();
+    assert_eq!(words, ["sample rate 4 | \u{2013}", "coverage sampled | exact"]);
+    assert_eq!(ab.shared_words(&settings).as_deref(), Some("pattern r2"), "A has it");
+    session.run(set("coverage", "exact"));
+    let settings = *session.viewer.settings();
+    let ab = session.viewer.ab();
+    assert_eq!(
+        ab.shared_words(&settings).as_deref(),
+        Some("coverage exact"),
+        "no pattern"
+    );
+    let sides = ab.sides(&settings).unwrap();
+    assert_eq!(sides[1], "B: sample rate 16 (no effect)", "nothing else differs");
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    let settings = *session.viewer.settings();
+    let [_, truth] = session.viewer.ab().sides(&settings).unwrap();
+    assert!(truth.ends_with("pattern hammersley"), "{truth}");
+    assert_eq!(
+        session.viewer.ab().shared_words(&settings),
+        None,
+        "its settings are its own"
+    );
+}
+
+#[test]
 fn truth_averages_as_a_does_unless_asked() {
     use ResolveSpace::{Linear, Stored};
     let mut session = Session::open(&[TRIANGLES], WINDOW);

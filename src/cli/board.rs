@@ -26,6 +26,9 @@ const SHAPE: u32 = 1;
 /// Pixels along each side of the region that nobody chose.
 const SIDE: u32 = 64;
 
+/// Said below a table of zeros.
+const NOTHING: &str = "\nNothing differs here: choose another part of the picture with --region X,Y,W,H.";
+
 /// What `board --json` answers.
 #[derive(Debug, Serialize)]
 struct Report {
@@ -93,7 +96,8 @@ pub(super) fn run(options: &BoardOptions, restored: Option<&Restored>) -> Result
     if options.table.markdown {
         return print(report.markdown().trim_end());
     }
-    print(&format!("{}\n{}", report.table().text(), report.caption()))
+    let nothing = if report.is_without_difference() { NOTHING } else { "" };
+    print(&format!("{}\n{}{nothing}", report.table().text(), report.caption()))
 }
 
 /// The picture of a board and its record, for the file `output`, and what protects what it was drawn from.

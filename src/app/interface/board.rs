@@ -22,7 +22,7 @@ use super::focus::{self, FocusPanel};
 use super::look::CONTROL;
 use crate::color::ResolveSpace;
 use crate::figure::TableFormat;
-use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, Toggle, Viewer, picture};
+use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, ShownTile, Toggle, Viewer, picture};
 
 /// Free space around the card, in points.
 const MARGIN: f32 = 10.0;
@@ -32,6 +32,9 @@ const FRAME: f32 = 14.0;
 const LEAST_TILES: f32 = 60.0;
 /// Width of the controls in one or two rows, in points.
 const CONTROLS: f32 = 660.0;
+
+/// Height of the list of settings, in points.
+const VARY_HEIGHT: f32 = 320.0;
 
 /// What the card remembers.
 #[derive(Debug, Default)]
@@ -124,6 +127,14 @@ impl BoardCard {
     fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, head: f32, commands: &mut Vec<Command>) {
         let top = ui.cursor().top();
         controls(ui, viewer, &mut self.list_open, commands);
+        if let Some(words) = in_all(&viewer.board().tiles(), &viewer.board().shared_words()) {
+            ui.label(RichText::new(words).small().weak());
+        }
+        if viewer.board().is_without_difference() {
+            let words =
+                "Nothing differs here: pin a pixel elsewhere, or make the region larger (board-region in the palette).";
+            ui.label(RichText::new(words).small().weak());
+        }
         self.above = head + ui.cursor().top() - top;
         if viewer.board().tiles().is_empty() {
             let hint = "Nothing to compare yet: Add A puts the settings of the picture here, Vary one entry for each value of \
@@ -172,6 +183,15 @@ fn words(viewer: &Viewer) -> String {
         ""
     };
     format!("{region}; truth: {truth}{why}{more}")
+}
+
+/// What all tiles share, and that the picture beside them has other settings; `None` where there is nothing to say.
+fn in_all(tiles: &[ShownTile<'_>], shared: &str) -> Option<String> {
+    let shared = (!shared.is_empty()).then(|| format!("In all: {shared}."));
+    let is_elsewhere = !tiles.is_empty() && !tiles.iter().any(|tile| tile.is_a);
+    let elsewhere = is_elsewhere.then(|| "The settings of A are on no tile.".to_owned());
+    let words: Vec<String> = shared.into_iter().chain(elsewhere).collect();
+    (!words.is_empty()).then(|| words.join(" "))
 }
 
 /// What changes the board.
@@ -264,18 +284,22 @@ fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
     let list = ComboBox::from_id_salt("vary on the board")
         .width(70.0)
         .selected_text("Vary \u{2026}")
-        .height(320.0)
+        .height(f32::INFINITY)
         .show_ui(ui, |ui| {
-            for (index, setting) in picture::all().enumerate() {
-                let label = setting.option.replace('-', " ");
-                let line = ui.selectable_label(false, label);
-                if index == 0 && !was_open {
-                    line.scroll_to_me_animation(Some(Align::TOP), ScrollAnimation::none());
+            // The list's own bar is hidden until the pointer is there, and nothing says that there is more.
+            super::look::bars_beside(ui);
+            ScrollArea::vertical().max_height(VARY_HEIGHT).show(ui, |ui| {
+                for (index, setting) in picture::all().enumerate() {
+                    let label = setting.option.replace('-', " ");
+                    let line = ui.selectable_label(false, label);
+                    if index == 0 && !was_open {
+                        line.scroll_to_me_animation(Some(Align::TOP), ScrollAnimation::none());
+                    }
+                    if line.clicked() {
+                        commands.push(Command::Board(BoardCommand::Vary(Axis::first(setting))));
+                    }
                 }
-                if line.clicked() {
-                    commands.push(Command::Board(BoardCommand::Vary(Axis::first(setting))));
-                }
-            }
+            });
         });
     *open = list.inner.is_some();
     let list = list
@@ -283,4 +307,29 @@ fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
         .on_hover_text(tip("board-vary"))
         .accessible_name("Vary on the board");
     focus::note_opener(&list);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boards_say_what_all_tiles_share_and_where_a_is_not() {
+        let tile = |is_a| ShownTile {
+            caption: String::new(),
+            tile: None,
+            is_stale: false,
+            is_a,
+        };
+        assert_eq!(in_all(&[tile(true)], ""), None, "nothing to say");
+        assert_eq!(in_all(&[], ""), None, "of nothing");
+        assert_eq!(
+            in_all(&[tile(false), tile(true)], "sample rate 64").as_deref(),
+            Some("In all: sample rate 64.")
+        );
+        assert_eq!(
+            in_all(&[tile(false)], "sample rate 64").as_deref(),
+            Some("In all: sample rate 64. The settings of A are on no tile.")
+        );
+    }
 }

@@ -31,6 +31,8 @@ const WIDE: f32 = 132.0;
 const REMOVE: f32 = 18.0;
 /// Size of the words, in points.
 const LETTERS: f32 = 11.0;
+/// Most lines of a caption: enough for three settings in the narrowest tile, and what has most values comes first.
+const LINES: usize = 6;
 
 /// How tiles lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +77,7 @@ impl Grid {
             let columns = (1..=ACROSS.min(count.max(1)))
                 .rev()
                 .find(|columns| *columns as f32 * (cell + GAP) - GAP <= room.x)?;
-            let captions = captions(cell - REMOVE).clamp(1, 2);
+            let captions = captions(cell - REMOVE).clamp(1, LINES);
             Some(Self {
                 columns,
                 tile,
@@ -252,11 +254,11 @@ fn caption(ui: &mut Ui, text: &str, stale: bool, grid: Grid) {
     });
 }
 
-/// A caption in two lines at most.
+/// A caption in [`LINES`] at most.
 fn job(text: &str, color: Color32, width: f32) -> LayoutJob {
     let format = TextFormat::simple(FontId::proportional(LETTERS), color);
     let mut job = LayoutJob::single_section(text.to_owned(), format);
-    (job.wrap.max_width, job.wrap.max_rows) = (width, 2);
+    (job.wrap.max_width, job.wrap.max_rows) = (width, LINES);
     job
 }
 

@@ -1,5 +1,8 @@
 //! What stands on a board: whole settings, and in words what tells them apart.
 
+use std::cmp::Reverse;
+use std::collections::HashSet;
+
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
 use crate::viewer::export::sheet::axes::Axis;
@@ -115,19 +118,59 @@ pub(in crate::viewer) fn differing(entries: &[BoardEntry]) -> Vec<&'static Pictu
     picture::all().filter(differs).collect()
 }
 
-/// What tells each entry from the others, such as `pattern sobol, sample rate 16`.
+/// What all entries have that is not at its default, such as `sample rate 16`, but for what has no effect in any of them.
+pub(in crate::viewer) fn shared_words(entries: &[BoardEntry]) -> String {
+    let Some((first, rest)) = entries.split_first() else {
+        return String::new();
+    };
+    let first = first.settings();
+    let rest: Vec<Settings> = rest.iter().map(|entry| entry.settings()).collect();
+    let is_shared = |setting: &&PictureSetting| {
+        let mut others = rest.iter();
+        // One alone says in its caption what it is.
+        !rest.is_empty()
+            && !setting.is_default(&first)
+            && others.all(|other| setting.value(other) == setting.value(&first))
+    };
+    let counts = |setting: &&PictureSetting| {
+        let mut all = std::iter::once(&first).chain(&rest);
+        all.any(|settings| setting.idle(settings, None).is_none())
+    };
+    let told = picture::all().filter(is_shared).filter(counts);
+    joined(told.map(|setting| setting.words(&first)))
+}
+
+/// What tells each entry from the others, such as `pattern sobol, sample rate 16`: first what has most values. What has no effect
+/// is told only where nothing else tells two entries apart.
 pub(in crate::viewer) fn captions(entries: &[BoardEntry]) -> Vec<String> {
-    let told = differing(entries);
-    let caption = |entry: &BoardEntry| {
-        let settings = entry.settings();
-        let words: Vec<String> = told.iter().map(|setting| setting.words(&settings)).collect();
+    let all: Vec<Settings> = entries.iter().map(|entry| entry.settings()).collect();
+    let mut told = differing(entries);
+    told.sort_by_cached_key(|setting| {
+        let values: HashSet<String> = all.iter().map(|settings| setting.value(settings)).collect();
+        Reverse(values.len())
+    });
+    let counting = |settings: &Settings| {
+        let counting = told.iter().filter(|setting| setting.idle(settings, None).is_none());
+        joined(counting.map(|setting| setting.words(settings)))
+    };
+    let few: Vec<String> = all.iter().map(counting).collect();
+    let caption = |(settings, own): (&Settings, &String)| {
+        let tells = !own.is_empty() && few.iter().filter(|other| *other == own).count() == 1;
+        if tells {
+            return own.clone();
+        }
+        let words = joined(told.iter().map(|setting| setting.candid_words(settings)));
         if words.is_empty() {
             "first settings".to_owned()
         } else {
-            words.join(", ")
+            words
         }
     };
-    entries.iter().map(caption).collect()
+    all.iter().zip(&few).map(caption).collect()
+}
+
+fn joined(words: impl Iterator<Item = String>) -> String {
+    words.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -161,6 +204,39 @@ mod tests {
         assert_eq!(captions(&entries[..1]), ["sample rate 16"], "one alone says what it is");
         assert_eq!(captions(&[entry(&[])]), ["first settings"], "of which nothing was set");
         assert!(captions(&[]).is_empty(), "nothing of nothing");
+    }
+
+    #[test]
+    fn captions_begin_with_what_differs_most() {
+        let entries = ["grid", "sobol", "r2"].map(|pattern| entry(&[("pattern", pattern)]));
+        let other = entry(&[("sample-rate", "16"), ("pattern", "jittered")]);
+        let told = captions(&[entries[0], entries[1], entries[2], other]);
+        assert_eq!(told[1], "pattern sobol, sample rate 1", "four patterns, two rates");
+    }
+
+    #[test]
+    fn captions_tell_what_has_no_effect_only_where_nothing_else_differs() {
+        let exact = entry(&[("coverage", "exact"), ("pattern", "sobol")]);
+        let sampled = entry(&[("sample-rate", "4"), ("pattern", "r2")]);
+        let told = captions(&[exact, sampled]);
+        assert_eq!(told[0], "coverage exact", "neither rate nor pattern");
+        assert!(told[1].contains("pattern r2"), "{}", told[1]);
+        let other = entry(&[("coverage", "exact"), ("pattern", "r2")]);
+        assert_eq!(
+            captions(&[exact, other]),
+            ["pattern sobol (no effect)", "pattern r2 (no effect)"],
+            "one picture"
+        );
+    }
+
+    #[test]
+    fn boards_say_what_all_entries_share() {
+        let entries = ["sobol", "r2"].map(|pattern| entry(&[("pattern", pattern), ("sample-rate", "64")]));
+        assert_eq!(shared_words(&entries), "sample rate 64", "no pattern, which differs");
+        assert_eq!(shared_words(&entries[..1]), "", "one alone says it itself");
+        let exact =
+            ["sobol", "r2"].map(|pattern| entry(&[("pattern", pattern), ("sample-rate", "64"), ("coverage", "exact")]));
+        assert_eq!(shared_words(&exact), "coverage exact", "no rate without samples");
     }
 
     #[test]

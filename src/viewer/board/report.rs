@@ -7,10 +7,10 @@ use crate::figure::{Ground, Record, SheetPlan, Table, in_markdown, magnified};
 use crate::raster::{Framebuffer, Region};
 use crate::render::{milliseconds, time_words};
 use crate::scene::Scene;
-use crate::viewer::board::entry::{AS_A, BoardEntry, captions, differing};
+use crate::viewer::board::entry::{AS_A, BoardEntry, captions, differing, shared_words};
 use crate::viewer::board::measure::{BoardPlace, BoardTile};
 use crate::viewer::board::numbers::{BoardNumbers, BoardSort};
-use crate::viewer::export::sheet::captions::{shared_words, title};
+use crate::viewer::export::sheet::captions::title;
 use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
 
 /// What the columns after those of the settings are called.
@@ -90,19 +90,15 @@ impl<'a> BoardReport<'a> {
 
     /// What all entries have that is not at its default, as a sentence.
     fn shared(&self) -> String {
-        let entries = self.entries();
-        let Some(first) = entries.first() else {
-            return String::new();
-        };
-        let told = differing(&entries);
-        let words = shared_words(&self.place.spec(*first), |name| {
-            told.iter().any(|setting| setting.option == name)
-        });
-        if words.is_empty() {
-            words
-        } else {
-            format!(". In all: {words}")
+        match shared_words(&self.entries()).as_str() {
+            "" => String::new(),
+            words => format!(". In all: {words}"),
         }
+    }
+
+    /// That the region has nothing to compare: no entry differs from the truth there.
+    pub fn is_without_difference(&self) -> bool {
+        self.rows.iter().all(|(_, tile)| tile.pixels == *self.truth)
     }
 
     /// What was compared with what, and how the time was taken.

@@ -7,7 +7,7 @@ use crate::render::RenderSettings;
 use crate::viewer::BoardCommand;
 use crate::viewer::board::Board;
 use crate::viewer::board::SIDES;
-use crate::viewer::board::entry::{BoardEntry, MAX_ENTRIES, captions};
+use crate::viewer::board::entry::{BoardEntry, MAX_ENTRIES, captions, shared_words};
 use crate::viewer::board::measure::{BoardPlace, BoardTile};
 use crate::viewer::board::measuring::BoardQuestion;
 use crate::viewer::board::numbers::BoardSort;
@@ -73,6 +73,11 @@ impl<'a> Boarded<'a> {
     pub fn words(&self) -> Option<[String; 2]> {
         let place = self.place()?;
         Some([place.region_words(), place.truth_words()])
+    }
+
+    /// What all entries have that is not at its default, such as `sample rate 64`; may be empty.
+    pub fn shared_words(&self) -> String {
+        shared_words(&self.board.entries)
     }
 
     /// Grows with every change of the tiles.
@@ -174,6 +179,11 @@ impl<'a> Boarded<'a> {
         let rows: Option<Vec<_>> = self.board.entries.iter().map(row).collect();
         let rows = rows.filter(|rows| !rows.is_empty())?;
         Some(BoardReport::new(&found.place, truth, rows, self.board.sort))
+    }
+
+    /// Whether no entry differs from the truth in the region, as far as that is known.
+    pub fn is_without_difference(&self) -> bool {
+        self.report().is_some_and(|report| report.is_without_difference())
     }
 
     fn command_line(&self, region: Region) -> Option<BoardCommandLine> {

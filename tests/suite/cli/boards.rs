@@ -206,6 +206,25 @@ fn board_tells_how_its_times_were_taken() {
 }
 
 #[test]
+fn board_of_an_even_region_says_that_nothing_differs() {
+    let folder = folder();
+    let words = |region| {
+        [
+            "board",
+            "a.svg",
+            "--vary=sample-rate",
+            "--frames=1",
+            "--size=90x70",
+            region,
+        ]
+    };
+    let text = done(folder.path(), &words("--region=80,60,8,8"));
+    assert!(text.contains("Nothing differs here: choose another part"), "{text}");
+    let text = done(folder.path(), &words("--region=0,0,90,70"));
+    assert!(!text.contains("Nothing differs"), "{text}");
+}
+
+#[test]
 fn board_refuses_what_makes_no_sense() {
     let folder = folder();
     let many: Vec<String> = (1..=10).map(|seed| format!("--with=seed {seed}")).collect();

@@ -59,7 +59,7 @@ struct EdgeReport {
     /// In parts of the step.
     overshoot: f64,
     undershoot: f64,
-    /// Whether no value is farther beyond the plateaus than filters ring.
+    /// Whether there is no other edge: then alone width, overshoot and undershoot are those of an edge.
     alone: bool,
 }
 
@@ -204,7 +204,8 @@ impl Report {
         let edges = [&self.picture.edge, &self.truth.edge];
         if edges.into_iter().flatten().any(|edge| !edge.alone) {
             lines.push(
-                "The line crosses more than one edge: the numbers are about the first rise and the ends.".to_owned(),
+                "The line crosses more than one edge, which have no width, overshoot or undershoot together."
+                    .to_owned(),
             );
         }
         lines.join("\n")
@@ -221,17 +222,20 @@ impl SideReport {
 
     fn line(&self, name: &str) -> String {
         let start = format!("{name:<7}  {:>6}", self.shades);
-        match &self.edge {
-            None => format!("{start}  no edge: both ends of the line are alike"),
-            Some(edge) => format!(
-                "{start}  {:>6.1}  {:>6.1}  {:>10.2} px  {:>7.1} %  {:>8.1} %",
-                edge.before,
-                edge.behind,
-                edge.width,
-                edge.overshoot * 100.0,
-                edge.undershoot * 100.0
-            ),
+        let Some(edge) = &self.edge else {
+            return format!("{start}  no edge: both ends of the line are alike");
+        };
+        let start = format!("{start}  {:>6.1}  {:>6.1}", edge.before, edge.behind);
+        if !edge.alone {
+            let none = "\u{2013}";
+            return format!("{start}  {none:>13}  {none:>9}  {none:>10}");
         }
+        format!(
+            "{start}  {:>10.2} px  {:>7.1} %  {:>8.1} %",
+            edge.width,
+            edge.overshoot * 100.0,
+            edge.undershoot * 100.0
+        )
     }
 }
 

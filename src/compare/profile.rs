@@ -22,8 +22,8 @@ use crate::raster::Framebuffer;
 
 /// Parts of the way between both plateaus where an edge begins and ends.
 const REACHED: [f64; 2] = [0.1, 0.9];
-/// Parts of the step beyond both plateaus that no filter comes to: there is another edge.
-const ANOTHER: f64 = 0.5;
+/// Parts of the step beyond both plateaus that no filter comes to, which ring by an eighth at most: there is another edge.
+const ANOTHER: f64 = 0.25;
 /// Plateaus that are nearer to each other, in levels of 255, are no edge.
 const LEAST_STEP: f64 = 0.5;
 
@@ -109,7 +109,7 @@ impl Edge {
     }
 
     /// Whether it seems to be the only one: the line goes from one plateau to the other once, and no value is farther beyond both
-    /// than filters ring.
+    /// than filters ring. Else width, overshoot and undershoot are those of no edge.
     pub fn is_alone(&self) -> bool {
         self.swings <= 1 && self.overshoot.max(self.undershoot) < ANOTHER
     }
@@ -282,6 +282,8 @@ mod tests {
         is(found.overshoot, 0.1, "above the lighter one");
         is(found.undershoot, 0.2, "below the darker one");
         assert!(found.is_alone(), "as filters ring");
+        let below = edge(&[100, 100, 100, 100, 53, 150, 200, 200, 200, 200, 200, 200]);
+        assert!(!below.is_alone(), "no filter rings by 47 %: {}", below.undershoot);
         assert!(!edge(&[0, 0, 0, 90, 40, 40, 40, 40]).is_alone(), "up and down again");
         assert!(
             !edge(&[0, 0, 0, 0, 200, 0, 0, 200, 200, 200, 200, 200]).is_alone(),

@@ -213,11 +213,13 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
     let edges: Vec<Option<Edge>> = curves.iter().map(|curve| curve.profile.edge(channel)).collect();
     for (curve, edge) in curves.iter().zip(&edges) {
         let percent = |part: f64| measure(part * 100.0, 1, if is_narrow { "" } else { " %" });
+        // Of several edges the numbers are those of none.
+        let alone = edge.filter(Edge::is_alone);
         let cells = [
             Some(curve.profile.shades().to_string()),
-            edge.map(|edge| measure(edge.width(), 2, if is_narrow { "" } else { " px" })),
-            edge.map(|edge| percent(edge.overshoot)),
-            edge.map(|edge| percent(edge.undershoot)),
+            alone.map(|edge| measure(edge.width(), 2, if is_narrow { "" } else { " px" })),
+            alone.map(|edge| percent(edge.overshoot)),
+            alone.map(|edge| percent(edge.undershoot)),
         ];
         let cells = cells.map(|cell| {
             let text = RichText::new(cell.unwrap_or_else(|| "\u{2013}".to_owned())).monospace();
@@ -229,7 +231,7 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
     let note = if edges.iter().any(Option::is_none) {
         "No width, over or under where both ends of the line are alike."
     } else if edges.iter().flatten().any(|edge| !edge.is_alone()) {
-        "The line crosses more than one edge."
+        "No width, over or under where the line crosses more than one edge."
     } else {
         return;
     };

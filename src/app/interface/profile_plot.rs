@@ -4,7 +4,7 @@ use egui::{
     Align2, Color32, FontId, Pos2, Rangef, Rect, Response, RichText, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2,
 };
 
-use crate::compare::ProfileChannel;
+use crate::compare::{Edge, ProfileChannel};
 use crate::viewer::{ProfileCurve, ProfileSide, Viewer};
 
 /// Room for the numbers on the left and below, in points.
@@ -59,7 +59,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, curves: &[ProfileCurve], size: 
     let dark = ui.visuals().dark_mode;
     let own = curves.iter().find(|curve| curve.side == ProfileSide::A);
     let clipped = painter.with_clip_rect(rect.expand(2.0));
-    if let Some(edge) = own.and_then(|curve| curve.profile.edge(channel)) {
+    let edge = own.and_then(|curve| curve.profile.edge(channel));
+    if let Some(edge) = edge.filter(Edge::is_alone) {
         let weak = Stroke::new(1.0, ui.visuals().weak_text_color());
         for distance in edge.rise {
             let x = axes.x(distance);

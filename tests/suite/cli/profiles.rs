@@ -130,7 +130,12 @@ fn profile_without_an_edge_says_so() {
         &ACROSS[1..],
     ]
     .concat();
-    assert!(done(folder.path(), &words).contains("more than one edge"), "across two");
+    let text = done(folder.path(), &words);
+    assert!(text.contains("more than one edge"), "across two");
+    assert!(
+        !text.contains(" px") && text.contains('\u{2013}'),
+        "of which no number is: {text}"
+    );
     let report = report(FILTERS, &["--line=-40,60,600,60", "--view=canvas", "--size=512x384"]);
     assert_eq!(report["pixels"].as_array().unwrap().len(), 512, "what the picture has");
     assert_eq!(

@@ -264,7 +264,7 @@ impl SheetDialog {
                     String::new()
                 }
                 Some((Err(problem), _)) => {
-                    told(ui, problem, ui.visuals().warn_fg_color);
+                    told(ui, &without_dashes(problem), ui.visuals().warn_fg_color);
                     String::new()
                 }
                 Some((Ok(preview), stale)) => {
@@ -372,6 +372,14 @@ fn buttons(ui: &mut Ui, problem: Option<&str>, commands: &mut Vec<Command>) {
     button(ui, "copy-sheet-command-line", "Copy command line", width);
 }
 
+/// A problem that the command line names an option in, such as `--sample-rate 1: ...`, in the words of the window.
+fn without_dashes(problem: &str) -> String {
+    match problem.strip_prefix("--").and_then(|rest| rest.split_once(' ')) {
+        Some((option, rest)) => format!("{} {rest}", option.replace('-', " ")),
+        None => problem.to_owned(),
+    }
+}
+
 /// What the preview stands for.
 fn size_words(preview: &SheetPreview, stale: bool) -> String {
     let [width, height] = preview.size;
@@ -391,4 +399,22 @@ fn size_words(preview: &SheetPreview, stale: bool) -> String {
 )]
 fn device_size(points: Vec2, scale: f32) -> [u32; 2] {
     [points.x, points.y].map(|side| (side * scale).clamp(1.0, 65536.0) as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn problems_are_told_in_words_of_the_window() {
+        for (problem, told) in [
+            (
+                "--sample-rate 1: not with this pattern",
+                "sample rate 1: not with this pattern",
+            ),
+            ("an inset has no room", "an inset has no room"),
+        ] {
+            assert_eq!(without_dashes(problem), told);
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use crate::viewer::chrome::Dialog;
 use crate::viewer::chrome::{Chrome, ending};
 use crate::viewer::command::parts::{
     AbCommand, ExportCommand, InspectorCommand, PointerCommand, SceneCommand, SheetCommand, WindowCommand,
@@ -148,6 +149,9 @@ impl Viewer {
             }
             WindowCommand::ToggleDialog(dialog) => {
                 screen.dialog = Some(dialog).filter(|dialog| screen.dialog != Some(*dialog));
+                if screen.dialog == Some(Dialog::Sheet) {
+                    self.sheet.draft.suit(self.settings.render.pattern);
+                }
             }
             WindowCommand::CloseDialog => screen.dialog = None,
             WindowCommand::SetTheme(theme) => screen.theme = theme,

@@ -79,8 +79,12 @@ impl Saving<'_> {
         match command {
             SheetCommand::Change(change) => self.sheet.draft.change(change),
             SheetCommand::SetRoom(room) => self.sheet.room = room,
-            SheetCommand::Save => self.sheet.ask(),
+            SheetCommand::Save => {
+                self.sheet.draft.suit(self.recipes.both.settings.render.pattern);
+                self.sheet.ask();
+            }
             SheetCommand::CopyCommandLine => {
+                self.sheet.draft.suit(self.recipes.both.settings.render.pattern);
                 let line = self.recipes.sheet_command_line(self.sheet);
                 return line.map(Copied::text).map(Ok);
             }

@@ -2,6 +2,7 @@
 
 use crate::figure::{Ground, InsetSpec};
 use crate::geometry::View;
+use crate::raster::{SamplePattern, SampleRate};
 use crate::viewer::export::sheet::axes::{Axis, AxisLists};
 use crate::viewer::export::sheet::drawing::{SheetRequest, framing_words};
 use crate::viewer::export::spec::{PictureSpec, as_path};
@@ -59,14 +60,22 @@ pub enum PanelSize {
     Exact([u32; 2]),
 }
 
+/// The columns to begin with.
+const RATES: (&str, [&str; 3]) = ("sample-rate", ["1", "4", "16"]);
+/// The same where the pattern takes only some rates.
+const FILTERS: (&str, [&str; 3]) = ("resolve-filter", ["box", "tent", "mitchell"]);
+
+fn axis((name, values): (&str, [&str; 3])) -> Axis {
+    Axis {
+        name: name.to_owned(),
+        values: values.map(str::to_owned).to_vec(),
+    }
+}
+
 impl Default for SheetDraft {
     fn default() -> Self {
-        let rates = ["1", "4", "16"].map(str::to_owned).to_vec();
         Self {
-            columns: Some(Axis {
-                name: "sample-rate".to_owned(),
-                values: rates,
-            }),
+            columns: Some(axis(RATES)),
             rows: None,
             inset: true,
             panels: PanelSize::default(),
@@ -77,6 +86,16 @@ impl Default for SheetDraft {
 }
 
 impl SheetDraft {
+    /// Columns to begin with have values that `pattern` takes. Where no axis is that of patterns, that is.
+    pub(in crate::viewer) fn suit(&mut self, pattern: SamplePattern) {
+        let mut rates = RATES.1.iter().filter_map(|rate| SampleRate::new(rate.parse().ok()?));
+        let is_first = self.columns == Some(axis(RATES));
+        let chooses_pattern = self.rows.as_ref().is_some_and(|axis| axis.name == "pattern");
+        if is_first && !chooses_pattern && !rates.all(|rate| pattern.takes(rate)) {
+            self.change(SheetChange::Axis(SheetSide::Columns, Some(axis(FILTERS))));
+        }
+    }
+
     /// Changes one thing. An axis that is given to one side is taken from the other.
     pub(in crate::viewer) fn change(&mut self, change: SheetChange) {
         match change {
@@ -198,5 +217,33 @@ impl PanelSize {
                 Some(Self::Exact([side(width)?, side(height)?]))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::settings::picture::SettingChange;
+
+    #[test]
+    fn first_columns_have_values_that_the_pattern_takes() {
+        let mut settings = crate::viewer::Settings::default();
+        let mut draft = SheetDraft::default();
+        draft.suit(settings.render.pattern);
+        assert_eq!(draft, SheetDraft::default(), "a grid takes these rates");
+        let change = SettingChange::of("pattern", "msaa-8").expect("a pattern");
+        change.apply(&mut settings);
+        draft.suit(settings.render.pattern);
+        let axis = draft.columns.expect("columns");
+        assert_eq!(
+            axis.name, "resolve-filter",
+            "this one takes eight samples and no others"
+        );
+        Axis::of(&axis.name, &axis.values.join(",")).expect("values of the setting");
+        let mut chosen = SheetDraft::default();
+        let rates = Axis::of("sample-rate", "8").expect("rates");
+        chosen.change(SheetChange::Axis(SheetSide::Columns, Some(rates.clone())));
+        chosen.suit(settings.render.pattern);
+        assert_eq!(chosen.columns, Some(rates), "what somebody chose stays");
     }
 }

@@ -6,7 +6,10 @@
 
 use std::sync::LazyLock;
 
-use ab_glyph::{Font as _, FontRef, GlyphId, OutlinedGlyph, PxScale, ScaleFont as _, point};
+use ab_glyph::{
+    Font as _, FontRef, Glyph, GlyphId, Outline, OutlineCurve, OutlinedGlyph, Point, PxScale, Rect, ScaleFont as _,
+    point,
+};
 
 use super::PixelRect;
 use super::paint::blend;
@@ -23,6 +26,8 @@ static FACES: LazyLock<Vec<FontRef<'static>>> = LazyLock::new(|| {
 
 /// From one baseline to the next, in parts of the size.
 const LINE: f32 = 1.3;
+/// How far a slanted letter leans to the right, in parts of its height: about 12 degrees, as italics do.
+const SLANT: f32 = 0.21;
 /// Thin strokes fade where they cover part of a pixel; half coverage is raised by a quarter of this.
 const STRENGTH: f32 = 0.6;
 
@@ -34,6 +39,8 @@ pub enum Typeface {
     Text,
     /// All characters of one width, for columns of numbers and for code: Hack.
     Code,
+    /// The proportional one at a slant, for emphasis.
+    Slanted,
 }
 
 /// Which point of a block of text stands at the place it is drawn at; its lines are flush there too.
@@ -275,7 +282,11 @@ fn draw_line(picture: &mut Framebuffer, text: &str, style: TextStyle, [x, y]: [i
         let scale = style.scale(face);
         let kerned = style.advance(last, character) - style.advance(None, character);
         let glyph = id.with_scale_and_position(scale, point(pen + kerned, baseline));
-        if let Some(outlined) = face.outline_glyph(glyph) {
+        let outlined = match style.typeface {
+            Typeface::Text | Typeface::Code => face.outline_glyph(glyph),
+            Typeface::Slanted => slanted(face, glyph),
+        };
+        if let Some(outlined) = outlined {
             draw_glyph(picture, &outlined, style.color, [x, y]);
         }
         pen += style.advance(last, character);
@@ -284,6 +295,28 @@ fn draw_line(picture: &mut Framebuffer, text: &str, style: TextStyle, [x, y]: [i
             return;
         }
     }
+}
+
+/// The outline of a glyph that leans to the right.
+fn slanted(face: &FontRef<'_>, glyph: Glyph) -> Option<OutlinedGlyph> {
+    let Outline { bounds, curves } = face.outline(glyph.id)?;
+    // Glyphs are described with the baseline at 0 and the height upwards.
+    let lean = |at: Point| point(at.x + SLANT * at.y, at.y);
+    let curves = curves.into_iter().map(|curve| match curve {
+        OutlineCurve::Line(from, to) => OutlineCurve::Line(lean(from), lean(to)),
+        OutlineCurve::Quad(from, by, to) => OutlineCurve::Quad(lean(from), lean(by), lean(to)),
+        OutlineCurve::Cubic(from, a, b, to) => OutlineCurve::Cubic(lean(from), lean(a), lean(b), lean(to)),
+    });
+    let (low, high) = (bounds.min.y.min(bounds.max.y), bounds.min.y.max(bounds.max.y));
+    let outline = Outline {
+        bounds: Rect {
+            min: point(bounds.min.x + SLANT * low, bounds.min.y),
+            max: point(bounds.max.x + SLANT * high, bounds.max.y),
+        },
+        curves: curves.collect(),
+    };
+    let factor = face.as_scaled(glyph.scale).scale_factor();
+    Some(OutlinedGlyph::new(glyph, outline, factor))
 }
 
 /// Blends a glyph over the picture, `corner` being where its coordinates start.
@@ -384,6 +417,36 @@ mod tests {
                 "{anchor:?}: it is as wide as it says"
             );
         }
+    }
+
+    #[test]
+    fn text_at_a_slant_leans_to_the_right_and_is_as_wide() {
+        let upright = TextStyle::new(40.0, BLACK);
+        let style = TextStyle {
+            typeface: Typeface::Slanted,
+            ..upright
+        };
+        let block = TextBlock::new("l", style, None);
+        assert_eq!(
+            block.size(),
+            TextBlock::new("l", upright, None).size(),
+            "the pen goes as far"
+        );
+        let mut picture = white(60, 60);
+        block.draw(&mut picture, [20, 4], Anchor::Left);
+        let width = picture.width() as usize;
+        let rows = picture.pixels().chunks(width);
+        let places: Vec<usize> = rows
+            .filter_map(|row| row.iter().position(|pixel| *pixel != 0xffff_ffff))
+            .collect();
+        let (Some(top), Some(bottom)) = (places.first(), places.last()) else {
+            panic!("ink");
+        };
+        assert!(*top > bottom + 3, "{top} above {bottom}");
+        assert!(
+            places.windows(2).all(|rows| rows[1] <= rows[0]),
+            "an even stroke: {places:?}"
+        );
     }
 
     #[test]

@@ -141,6 +141,10 @@ fn caption_of(viewer: &Viewer) -> Option<String> {
             let measure = ab.difference_style().measure.name();
             format!("{measure} difference of A and B  |  {a}  |  {b}")
         }
-        Arrangement::Wipe | Arrangement::SideBySide | Arrangement::Flip => format!("{a}  |  {b}"),
+        Arrangement::Wipe | Arrangement::SideBySide | Arrangement::Flip => {
+            let both = ab.shared_words(viewer.settings());
+            let both = both.map_or(String::new(), |words| format!("  |  both: {words}"));
+            format!("{a}  |  {b}{both}")
+        }
     })
 }

@@ -247,7 +247,8 @@ fn words_of<'a>(span: &'a Span, style: TextStyle, colors: &Colors) -> impl Itera
             ..style
         },
         Look::Italic => TextStyle {
-            color: colors.quiet,
+            typeface: Typeface::Slanted,
+            color: colors.strong,
             ..style
         },
         Look::Plain => style,

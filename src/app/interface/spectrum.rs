@@ -157,14 +157,16 @@ fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let chosen = choice(ui, "Spectrum of", tip, spectrum.of(), &values);
     commands.extend(chosen.map(SpectrumCommand::Of).map(Command::Spectrum));
     let frame = viewer.both().layout().frame_size();
-    let values = SpectrumPart::ALL.map(|part| (part, words_of(part, frame).to_owned()));
-    let tip = |part: SpectrumPart| match (spectrum.of(), part) {
+    let values = SpectrumPart::ALL.map(|part| (Some(part), words_of(part, frame).to_owned()));
+    // Of a texture it is neither.
+    let current = Some(spectrum.part()).filter(|_| spectrum.of() != SpectrumOf::Texture);
+    let tip = |part: Option<SpectrumPart>| match (spectrum.of(), part) {
         (SpectrumOf::Texture, _) => (NO_PART.to_owned(), false),
-        (_, SpectrumPart::Pin) if !spectrum.has_pin() => (NO_PIN.to_owned(), false),
+        (_, Some(SpectrumPart::Pin)) if !spectrum.has_pin() => (NO_PIN.to_owned(), false),
         _ => (PARTS.to_owned(), true),
     };
-    let chosen = choice_where(ui, "Part", &tip, spectrum.part(), &values);
-    commands.extend(chosen.map(SpectrumCommand::Part).map(Command::Spectrum));
+    let chosen = choice_where(ui, "Part", &tip, current, &values);
+    commands.extend(chosen.flatten().map(SpectrumCommand::Part).map(Command::Spectrum));
 }
 
 /// What the parts are.
@@ -211,12 +213,13 @@ fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
     let length = wave.wavelength();
     let digits = if length < 10.0 { 2 } else { 1 };
     let length = if length.is_finite() {
-        format!("{length:.digits$} {unit} at {:.0}\u{b0}", wave.angle())
+        format!("{length:.digits$} {unit} at {}\u{b0}", number(wave.angle(), 0))
     } else {
         "no wave".to_owned()
     };
-    let first = format!("{x:.3}, {y:.3} /{unit}: {length}, {:.0} dB", wave.decibels());
-    let place = |[x, y]: [f64; 2]| format!("{x:.2}, {y:.2}");
+    let [x, y] = [x, y].map(|frequency| number(frequency, 3));
+    let first = format!("{x}, {y} /{unit}: {length}, {} dB", number(wave.decibels(), 0));
+    let place = |at: [f64; 2]| at.map(|frequency| number(frequency, 2)).join(", ");
     let second = match (reading.lands, reading.alias()) {
         (Some(lands), _) if is_texture => format!(
             "{} /px: too fine for pixels, seen at {}",
@@ -236,6 +239,15 @@ fn told(found: &SpectrumFound, reading: &SpectrumReading) -> [String; 2] {
         (None, None) => "In the scene as it is".to_owned(),
     };
     [first, second]
+}
+
+/// A number with so many digits behind its point; nothing has no sign.
+fn number(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|digit| matches!(digit, '0' | '.')) => rest.to_owned(),
+        _ => text,
+    }
 }
 
 /// What lightness and hues mean.
@@ -270,6 +282,7 @@ fn legend(ui: &mut Ui, found: &SpectrumFound) {
         }
         ui.label(RichText::new(format!("{high:.0} dB")).small().weak());
         ui.add_space(4.0);
+        ui.label(RichText::new("too fine:").small().weak());
         for (band, name) in Band::ALL.into_iter().zip(["across", "down", "both"]) {
             let (rect, _) = ui.allocate_exact_size(vec2(9.0, LEGEND_HEIGHT), Sense::hover());
             let swatch = Rect::from_center_size(rect.center(), vec2(9.0, 9.0));
@@ -284,4 +297,21 @@ fn legend(ui: &mut Ui, found: &SpectrumFound) {
 pub(super) fn rgb(color: u32) -> Color32 {
     let [_, r, g, b] = color.to_be_bytes();
     Color32::from_rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_nothing_have_no_sign() {
+        for (value, digits, text) in [
+            (-0.001, 2, "0.00"),
+            (-0.2, 0, "0"),
+            (-0.25, 2, "-0.25"),
+            (-10.0, 0, "-10"),
+        ] {
+            assert_eq!(number(value, digits), text);
+        }
+    }
 }

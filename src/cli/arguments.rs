@@ -31,7 +31,8 @@ use super::options::writeup::WriteupOptions;
 #[command(
     name = "rasterscope",
     version,
-    about = "See how a picture is sampled: a rasterizer with a pixel microscope."
+    about = "See how a picture is sampled: a rasterizer with a pixel microscope.",
+    override_usage = "rasterscope [OPTIONS] [COMMAND]\n       rasterscope [OPTIONS] [SCENE]..."
 )]
 #[command(after_help = help::LIST)]
 pub(super) struct Arguments {
@@ -199,6 +200,9 @@ mod tests {
     #[test]
     fn arguments_are_well_formed() {
         Arguments::command().debug_assert();
+        let help = Arguments::command().render_help().to_string();
+        let usage = "rasterscope [OPTIONS] [COMMAND]\n       rasterscope [OPTIONS] [SCENE]...";
+        assert!(help.contains(usage), "without a command the window opens: {help}");
     }
 
     #[test]

@@ -247,7 +247,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "The longer side blurs what lies across it, the shorter axis misses what lies along; anisotropic taps need neither",
+            more: "The longer side blurs what lies across it, the shorter axis misses what lies along; anisotropic taps need neither, and beside them it counts only where one tap is enough: in footprints about as wide as long, and in enlarged textures",
             ..SettingCommand::new(
                 "lod-by",
                 "Level of detail by",

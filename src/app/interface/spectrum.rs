@@ -29,7 +29,7 @@ const MARGIN: f32 = 10.0;
 /// Sides that the plot with its numbers may have, in points: the first for which there is room beside other things.
 const SIDES: [f32; 4] = [320.0, 270.0, 220.0, 190.0];
 /// Width of the card's contents at least, in points: that of the legend.
-const LEAST: f32 = 236.0;
+const LEAST: f32 = 284.0;
 /// What is below and above the plot, in points: title, choices, words, legend.
 const BESIDES: f32 = 196.0;
 /// Width of the card around its contents, in points.

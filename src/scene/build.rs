@@ -128,6 +128,12 @@ impl<'doc> Builder<'doc> {
         self.report.warn(location, message);
     }
 
+    /// The same of what stands at byte `at` of the parsed text.
+    pub(super) fn warn_at(&mut self, at: usize, message: String) {
+        let location = self.lines.locate(self.source.original_offset(at));
+        self.report.warn(location, message);
+    }
+
     /// The shape of an element; what is pushed with it belongs to it.
     pub(super) fn shape(&mut self, node: Node<'_, '_>) -> ShapeId {
         self.shape_used(node, None)

@@ -11,6 +11,9 @@ use super::css_colors;
 use super::edits::Edits;
 use super::substitutes::{Markup, block_end};
 
+/// What is left of a rule inside another, so that it can be told: a declaration of nothing.
+pub(super) const NESTED: &str = "x--:1;";
+
 /// The document without such declarations, without comments in styles, and without the height of lines in `font`.
 pub(super) fn mended(text: Cow<'_, str>) -> Cow<'_, str> {
     if !text.contains("style") {
@@ -121,7 +124,7 @@ fn mend(text: &str, block: Range<usize>, edits: &mut Edits) {
             continue;
         }
         // What entities stand for is not known here.
-        if is_plain(named) || named.contains('&') || is_read(named) {
+        if !is_rule(named) && (is_plain(named) || named.contains('&') || is_read(named)) {
             is_first = false;
             lower_name(text, piece.start, declaration, edits);
             continue;
@@ -138,9 +141,27 @@ fn mend(text: &str, block: Range<usize>, edits: &mut Edits) {
             is_first = false;
             blank(text, height, edits);
         } else {
-            blank(text, piece, edits);
+            let line = text[piece.clone()].trim_start();
+            let start = piece.end - line.len();
+            // Where lines are too short for it nothing is told.
+            let is_told = is_rule(line) && !line.as_bytes()[..NESTED.len()].contains(&b'\n');
+            if is_told {
+                is_first = false;
+                blank(text, piece.start..start, edits);
+                edits.replace(start..start + NESTED.len(), NESTED.to_owned());
+                blank(text, start + NESTED.len()..piece.end, edits);
+            } else {
+                blank(text, piece, edits);
+            }
         }
     }
+}
+
+/// Whether this is a rule with something in it.
+fn is_rule(piece: &str) -> bool {
+    let body = piece.split_once('{').and_then(|(_, body)| body.strip_suffix('}'));
+    let is_custom = piece.starts_with("--");
+    !is_custom && piece.len() > NESTED.len() && body.is_some_and(|body| body.contains(':'))
 }
 
 /// Writes the name of a declaration at `start` in small letters, which mean the same (CSS Syntax 3, section 1).
@@ -172,7 +193,7 @@ fn unclosed_color(declaration: &str) -> Option<(Range<usize>, String)> {
 }
 
 /// The declarations of a block, each with the semicolon that ends it.
-fn pieces(block: &str) -> Vec<Range<usize>> {
+pub(super) fn pieces(block: &str) -> Vec<Range<usize>> {
     let bytes = block.as_bytes();
     let mut found = Vec::new();
     let [mut start, mut depth] = [0, 0_usize];
@@ -281,7 +302,6 @@ mod tests {
             "color:red !ie",
             "x:1px\\9",
             "$x:1",
-            "a:hover{fill:lime}",
             "aspect-ratio:1/1",
             "background:url(a) center / cover",
             "/* c */",
@@ -297,6 +317,23 @@ mod tests {
             );
         }
         assert_becomes("<svg style=';;fill:red'/>", "<svg style=' fill:red'/>");
+    }
+
+    #[test]
+    fn rules_inside_others_leave_a_mark() {
+        for rule in [
+            "rect{fill:red}",
+            "a:hover { fill:lime; x:y }",
+            "&amp; > b{c:d}",
+            "@media x{e:f}",
+            "é{c:d}",
+        ] {
+            assert_becomes(
+                &format!("<svg><style>.a{{ stroke:red; {rule} fill:red}}</style></svg>"),
+                "<svg><style>.a{ stroke:red; x--:1; fill:red}</style></svg>",
+            );
+        }
+        assert_becomes("<svg><style>.a{b{}}</style></svg>", "<svg><style>.a{ }</style></svg>");
     }
 
     #[test]

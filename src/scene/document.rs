@@ -297,8 +297,10 @@ impl<'doc> Source<'doc> {
         }
         let message = match error {
             Error::UnexpectedDeclaration(_) if is_first => {
-                "blanks stand before the XML declaration, where nothing may stand".to_owned()
+                let message = "blanks stand before the XML declaration; delete what stands before <?xml";
+                return Problem::Repair(message.to_owned()).at(location);
             }
+            Error::UnknownEntityReference(name, _) => return Problem::Repair(entities::unknown(name)).at(location),
             Error::UnknownToken(_) if is_first => "text stands before the first tag".to_owned(),
             error => error.to_string().replace(&format!(" at {place}"), ""),
         };

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use super::Problem;
 use super::SourceLocation;
 use super::error::Fault;
+use super::report::quote;
 
 /// What a declaration begins with.
 const DECLARATION: &str = "<!ENTITY";
@@ -17,6 +18,36 @@ const MAX_EXPANSION: usize = 4 << 20;
 const MAX_DECLARATIONS: usize = 256;
 /// Nesting that the XML library allows.
 const MAX_NESTING: usize = 10;
+
+/// Entities that HTML has and XML has not, with their characters.
+const OF_HTML: [(&str, char); 16] = [
+    ("nbsp", '\u{a0}'),
+    ("copy", '©'),
+    ("reg", '®'),
+    ("trade", '™'),
+    ("deg", '°'),
+    ("plusmn", '±'),
+    ("micro", 'µ'),
+    ("middot", '·'),
+    ("times", '×'),
+    ("laquo", '«'),
+    ("raquo", '»'),
+    ("ndash", '–'),
+    ("mdash", '—'),
+    ("bull", '•'),
+    ("hellip", '…'),
+    ("euro", '€'),
+];
+
+/// What is to be said of a reference to an entity that the document does not declare.
+pub(super) fn unknown(name: &str) -> String {
+    let known = OF_HTML.iter().find(|(known, _)| *known == name);
+    let instead = known.map_or_else(
+        || "the character itself".to_owned(),
+        |(_, character)| format!("&#{};", u32::from(*character)),
+    );
+    format!("XML has no entity &{};; write {instead} in its place", quote(name))
+}
 
 /// Refuses documents whose entities hold markup or expand too far.
 pub(super) fn check(text: &str) -> Result<(), Fault> {

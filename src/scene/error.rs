@@ -48,6 +48,9 @@ pub enum Problem {
     /// Not well-formed.
     #[error("{0}; repair the XML here")]
     Xml(String),
+    /// Not well-formed, and how to repair it.
+    #[error("{0}")]
+    Repair(String),
     /// Well-formed, but an entity of this name holds markup.
     #[error("the entity {} holds markup, which is not read from there; write it where &{}; stands", quote(.0), quote(.0))]
     EntityMarkup(String),

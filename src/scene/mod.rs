@@ -33,6 +33,7 @@ mod texture_files;
 mod textures;
 mod tiles;
 mod triangles;
+mod turned;
 mod unreadable;
 mod words;
 

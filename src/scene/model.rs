@@ -105,7 +105,7 @@ impl Scene {
         let other = self.other_reading?.name();
         let taken = self.dialect.name();
         Some(format!(
-            "read as {taken}{why}; --dialect {other} makes another picture of it"
+            "read as {taken}{why}; --dialect {other} makes another picture of it (course is the simple reader of a course: rasterscope help pixels)"
         ))
     }
 }

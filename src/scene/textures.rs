@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::cut_off::is_cut_off;
 use super::report::{quote, shorten};
+use super::turned::is_turned;
 use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId, unreadable};
 use crate::memory::{self, OutOfMemory};
 use crate::texture::{Memory, PixelSampling, Texture};
@@ -229,19 +230,15 @@ impl<'doc> TextureTable<'doc> {
             let decoded: Vec<_> = named
                 .into_par_iter()
                 .map(|(file, place)| {
-                    let is_cut_off = file.as_ref().is_ok_and(|file| is_cut_off(&file.bytes));
+                    let oddity = file.as_ref().ok().and_then(|file| oddity(&file.bytes));
                     let texture = file.and_then(|file| decode(&place.0, &file.bytes, alpha));
-                    (texture, is_cut_off, place)
+                    (texture, oddity, place)
                 })
                 .collect();
-            for (result, is_cut_off, (name, location, asks)) in decoded {
+            for (result, oddity, (name, location, asks)) in decoded {
                 // What is read in two ways is one file.
-                if is_cut_off && asks.is_none() && result.is_ok() {
-                    let message = format!(
-                        "texture {name}: the file ends before its picture does, which is drawn as far as it goes; copy \
-                         or save it again"
-                    );
-                    report.warn(location, message);
+                if let Some(oddity) = oddity.filter(|_| asks.is_none() && result.is_ok()) {
+                    report.warn(location, format!("texture {name}: {oddity}"));
                 }
                 let (texture, dropped) = result.unwrap_or_else(|trouble| {
                     report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
@@ -363,6 +360,17 @@ fn batches(files: Vec<Result<EncodedImage, String>>) -> Vec<Vec<Result<EncodedIm
     batches
 }
 
+/// What is to be said of a file of which a picture is read.
+fn oddity(file: &[u8]) -> Option<&'static str> {
+    if is_cut_off(file) {
+        Some("the file ends before its picture does, which is drawn as far as it goes; copy or save it again")
+    } else if is_turned(file) {
+        Some("Exif wants it turned or mirrored, which has no effect; save it as it shall lie")
+    } else {
+        None
+    }
+}
+
 /// The texture, and whether it lost its transparency.
 fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<(Texture, bool), String> {
     let texture = match alpha {
@@ -393,7 +401,7 @@ fn is_elsewhere(address: &str) -> bool {
 }
 
 /// The bytes in a `data:` address.
-fn embedded(address: &str) -> Result<Vec<u8>, String> {
+pub(super) fn embedded(address: &str) -> Result<Vec<u8>, String> {
     let url = DataUrl::process(address).map_err(|_| "this is not a data: address".to_owned())?;
     let (bytes, _) = url
         .decode_to_vec()

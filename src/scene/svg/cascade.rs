@@ -221,6 +221,8 @@ fn is_in_vain(declaration: &Declaration<'_>) -> bool {
     let Declaration { name, value, .. } = *declaration;
     match name {
         "fill" | "stroke" | "color" | "stop-color" | "stroke-dasharray" => false,
+        // Those of the root are told.
+        "background" | "background-color" => true,
         "transform" => transforms::plain(value).is_none(),
         _ => values::is_without_effect(name, value) || !values::is_understood(name, value),
     }

@@ -143,7 +143,32 @@ fn is_outline(node: Node<'_, '_>) -> bool {
     matches!(node.tag_name().name(), "path" | "polyline" | "polygon")
 }
 
+/// What is to be said of a root's background, unless it is that of all pictures.
+fn background(node: Node<'_, '_>, name: &str, value: &str) -> Option<String> {
+    let is_one = matches!(name, "background" | "background-color") && node.parent_element().is_none();
+    let color = is_one.then(|| value.parse::<svgtypes::Color>().ok())?;
+    let instead = match color {
+        Some(svgtypes::Color {
+            red: 255,
+            green: 255,
+            blue: 255,
+            ..
+        }) => return None,
+        Some(color) if color.alpha == 0 => return None,
+        Some(svgtypes::Color { red, green, blue, .. }) => format!("#{red:02x}{green:02x}{blue:02x}"),
+        None if values::is_keyword(value) => return None,
+        None => "COLOUR".to_owned(),
+    };
+    Some(format!(
+        "{name} is not drawn; use --background {instead}, or a <rect> behind all"
+    ))
+}
+
 fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value: &str) {
+    if let Some(message) = background(node, name, value) {
+        listener.warn(node, message);
+        return;
+    }
     if values::is_without_effect(name, value) {
         listener.skip(SkippedKind::Attribute, name, node);
         return;

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use usvg::fontdb::{Database, Family, ID, Query, Source, Stretch, Style, Weight};
 use usvg::{Font, FontResolver, FontStretch, FontStyle};
 
+use super::fallback::{Fallbacks, Instead};
 use super::families::{self, Asked, Kind};
 
 /// Where typefaces come from.
@@ -76,19 +77,25 @@ fn add(database: &mut Database, path: &std::path::Path) {
 /// What a document asks for and the machine has not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Missing {
-    /// A family, and what is taken instead.
+    /// The families of a list, and what is taken instead.
     Family(String, Option<String>),
     /// A bold or an inclined face of a family that is there.
     Face(&'static str, String),
     /// A character that no typeface has. Others may be missing as well: usvg looks for one in each chunk of text.
     Character(char),
+    /// A character of another typeface, which stands for the text around it, too.
+    Around(char, String),
 }
 
 impl Missing {
     /// Whether it needs no line of its own beside those of others.
     pub(super) fn is_told_by(&self, others: &[Self]) -> bool {
-        let is_character = |missing: &Self| matches!(missing, Self::Character(_));
-        others.contains(self) || is_character(self) && others.iter().any(is_character)
+        let is_like = |other: &Self| match (self, other) {
+            (Self::Character(_), Self::Character(_)) => true,
+            (Self::Around(_, family), Self::Around(_, other)) => family == other,
+            _ => self == other,
+        };
+        others.iter().any(is_like)
     }
 
     /// One line about it.
@@ -109,13 +116,22 @@ impl Missing {
                 quote(&character.to_string()),
                 u32::from(*character)
             ),
+            Self::Around(character, family) => format!(
+                "the typeface of a text has no character {} (U+{:04X}); all of the text may be set in {}, which has it (--font adds more)",
+                quote(&character.to_string()),
+                u32::from(*character),
+                quote(family)
+            ),
         })
     }
 }
 
 /// Chooses typefaces, and tells of the families, faces and characters that are missing.
-pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Clone + Send + Sync + 'a) -> FontResolver<'a> {
-    let (fallback, tell_of_character) = (FontResolver::default_fallback_selector(), tell.clone());
+pub(super) fn resolver<'a>(
+    fallbacks: &'a Fallbacks,
+    tell: impl Fn(Missing) + Clone + Send + Sync + 'a,
+) -> FontResolver<'a> {
+    let tell_of_character = tell.clone();
     let more = more_fonts();
     FontResolver {
         select_font: Box::new(move |font, database| {
@@ -125,13 +141,21 @@ pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Clone + Send + Sync + 'a) ->
             }
             found
         }),
-        select_fallback: Box::new(move |character, tried, database| {
-            let found = fallback(character, tried, database);
-            if found.is_none() && !character.is_whitespace() && !character.is_control() {
-                tell_of_character(Missing::Character(character));
-            }
-            found
-        }),
+        select_fallback: Box::new(
+            move |character, tried, database| match fallbacks.find(character, tried, database) {
+                Some(Instead::Part(found)) => Some(found),
+                Some(Instead::Whole(found)) => {
+                    tell_of_character(Missing::Around(character, name(database, found)?));
+                    Some(found)
+                }
+                None => {
+                    if !character.is_whitespace() && !character.is_control() {
+                        tell_of_character(Missing::Character(character));
+                    }
+                    None
+                }
+            },
+        ),
     }
 }
 
@@ -203,7 +227,12 @@ fn chosen(database: &Database, wanted: &Wanted<'_>, more: &[PathBuf]) -> (Option
             let found = wanted.face_of_kind(database, *kind, more);
             let (shipped, is_of_kind) = families::shipped(*kind);
             let is_there = found.is_some() || is_of_kind;
-            unmet.extend((!is_there).then(|| kind.name()));
+            if is_there {
+                // What the document itself names for want of the others is no loss.
+                unmet.clear();
+            } else {
+                unmet.push(kind.name());
+            }
             found.or_else(|| wanted.face(database, shipped))
         }
         Asked::Nothing => None,
@@ -214,12 +243,10 @@ fn chosen(database: &Database, wanted: &Wanted<'_>, more: &[PathBuf]) -> (Option
         found.or_else(|| wanted.face(database, families::shipped(kind).0))
     });
     let taken = found.and_then(|id| name(database, id));
-    let families = unmet
-        .into_iter()
-        .map(|family| Missing::Family(family.to_owned(), taken.clone()));
+    let families = (!unmet.is_empty()).then(|| Missing::Family(unmet.join(" or "), taken.clone()));
     let faces = found.iter().flat_map(|id| wanted.lacking(database, *id));
     let faces = faces.map(|kind| Missing::Face(kind, taken.clone().unwrap_or_default()));
-    (found, families.chain(faces).collect())
+    (found, families.into_iter().chain(faces).collect())
 }
 
 fn name(database: &Database, id: ID) -> Option<String> {
@@ -362,7 +389,19 @@ mod tests {
             &[named("No Such"), named("Courier"), named("DejaVu Sans")],
             400,
         );
-        assert!(taken == "DejaVu Sans" && told.len() == 2, "{taken}: {told:?}");
+        assert_eq!(taken, "DejaVu Sans");
+        assert_eq!(
+            told,
+            ["there is no typeface No Such or Courier; DejaVu Sans is taken instead (--font adds more)"],
+            "one line for a list"
+        );
+        let list = ["Segoe UI", "Roboto", "No Such"].map(named);
+        let list = [&list[..], &[FontFamily::SansSerif]].concat();
+        assert_eq!(
+            set(&system, &list, 400).2,
+            [""; 0],
+            "nothing where its own last choice is there"
+        );
         let (taken, _, told) = set(&system, &[named("Courier")], 400);
         assert!(taken == "Hack" && told.len() == 1, "of its kind: {taken}: {told:?}");
     }

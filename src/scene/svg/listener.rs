@@ -12,6 +12,8 @@ pub(super) trait Listener {
     fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>);
     /// Something that is read differently from what the document says.
     fn warn(&mut self, node: Node<'_, '_>, message: String);
+    /// The same of what stands in an element, at byte `at` of the text that was parsed.
+    fn warn_at(&mut self, at: usize, node: Node<'_, '_>, message: String);
     /// A problem of an element or its attribute.
     fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault;
 }
@@ -23,6 +25,10 @@ impl Listener for Builder<'_> {
 
     fn warn(&mut self, node: Node<'_, '_>, message: String) {
         Builder::warn(self, node, message);
+    }
+
+    fn warn_at(&mut self, at: usize, _node: Node<'_, '_>, message: String) {
+        Builder::warn_at(self, at, message);
     }
 
     fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault {

@@ -1,6 +1,8 @@
 //! What SVG reads and usvg does not: numbers between white space, and shapes whose filter is not there.
 
+use glam::{DAffine2, DVec2};
 use roxmltree::Node;
+use svgtypes::PathSegment;
 
 use super::cascade::{Styled, is_missing};
 use super::elements::Elements;
@@ -60,6 +62,36 @@ pub(super) fn is_filtered_away(node: Node<'_, '_>, elements: &Elements<'_>) -> b
     })
 }
 
+/// What is to be said of a part of a clip path that SVG wants passed over (CSS Masking 1, section 6.1): all but shapes, text and
+/// each `use` of one.
+pub(super) fn clips_nothing(node: Node<'_, '_>, elements: &Elements<'_>) -> Option<String> {
+    let is_part = node
+        .parent_element()
+        .is_some_and(|parent| parent.tag_name().name() == "clipPath");
+    let is_group = |node: Node<'_, '_>| {
+        matches!(
+            node.tag_name().name(),
+            "g" | "a" | "svg" | "switch" | "symbol" | "image"
+        )
+    };
+    let name = node.tag_name().name();
+    if !is_part {
+        None
+    } else if is_group(node) {
+        Some(format!(
+            "<{name}> in a clipPath has no effect; put shapes and text into the clipPath themselves"
+        ))
+    } else {
+        let target = elements
+            .target(node)
+            .filter(|target| name == "use" && is_group(*target))?;
+        let name = target.tag_name().name();
+        Some(format!(
+            "<use> of <{name}> in a clipPath has no effect; use the shapes inside themselves"
+        ))
+    }
+}
+
 /// What is to be said of a document that refers to a style sheet outside, as XML does.
 pub(super) fn style_elsewhere(root: Node<'_, '_>) -> Option<&'static str> {
     let mut instructions = root.document().root().children().filter_map(|node| node.pi());
@@ -70,17 +102,65 @@ pub(super) fn style_elsewhere(root: Node<'_, '_>) -> Option<&'static str> {
 /// What is to be said of a root whose coordinates lie so far from 0 that 32-bit floats, in which usvg counts, tell neighbouring
 /// pixels no longer apart.
 pub(super) fn far_from_zero(root: Node<'_, '_>) -> Option<String> {
-    /// Parts of the picture's longer side by which a corner may be off: a tenth of a pixel of most windows.
-    const LITTLE: f64 = 1e-4;
     let numbers = numbers::all("viewBox", root.attribute("viewBox")?).ok()?;
     let [x, y, width, height] = numbers.first_chunk::<4>()?.map(f64::from);
     let farthest = (x.abs() + width).max(y.abs() + height);
+    rounded(
+        farthest,
+        width.max(height),
+        "move all of them nearer to 0, and viewBox with them",
+    )
+}
+
+/// What is to be said of a shape whose coordinates lie that far from 0, and which a transform brings back into a picture of this
+/// size.
+pub(super) fn far_before_transform(node: Node<'_, '_>, to_root: DAffine2, picture: DVec2) -> Option<String> {
+    /// How far from 0 a shape of the picture begins, at most, in its longer sides: its viewBox may begin elsewhere.
+    const NEAR: f64 = 10.0;
+    let side = picture.max_element();
+    // Most transforms are near, and not worth a look at the outline.
+    let cure = "write them nearer to 0, with a smaller transform";
+    rounded(to_root.translation.abs().max_element(), side, cure)?;
+    let start = start(node)?;
+    let is_seen = to_root.transform_point2(start).abs().max_element() < NEAR * side;
+    let scale = to_root.matrix2.x_axis.length().max(to_root.matrix2.y_axis.length());
+    rounded(start.abs().max_element() * scale, side, cure).filter(|_| is_seen)
+}
+
+/// Where the outline of a shape begins, or text; nothing of other elements.
+fn start(node: Node<'_, '_>) -> Option<DVec2> {
+    let number = |name| {
+        numbers::leading(name, node.attribute(name)?)
+            .ok()
+            .flatten()
+            .map(f64::from)
+    };
+    let place = |x, y| Some(DVec2::new(number(x).unwrap_or(0.0), number(y).unwrap_or(0.0)));
+    match node.tag_name().name() {
+        "path" => match svgtypes::PathParser::from(node.attribute("d")?).next()?.ok()? {
+            PathSegment::MoveTo { x, y, .. } => Some(DVec2::new(x, y)),
+            _ => None,
+        },
+        "polygon" | "polyline" => {
+            let (x, y) = svgtypes::PointsParser::from(node.attribute("points")?).next()?;
+            Some(DVec2::new(x, y))
+        }
+        "rect" | "image" | "text" | "use" => place("x", "y"),
+        "circle" | "ellipse" => place("cx", "cy"),
+        "line" => place("x1", "y1"),
+        _ => None,
+    }
+}
+
+/// What is to be said of coordinates that are up to `farthest` from 0 in a picture whose longer side is `side`.
+fn rounded(farthest: f64, side: f64, cure: &str) -> Option<String> {
+    /// Parts of the picture's longer side by which a corner may be off: a tenth of a pixel of most windows.
+    const LITTLE: f64 = 1e-4;
     // Half of the distance of neighbouring floats, at most.
     let off = farthest * f64::from(f32::EPSILON) / 2.0;
-    (off > width.max(height) * LITTLE).then(|| {
+    (off > side * LITTLE).then(|| {
         format!(
-            "coordinates this far from 0 are rounded, by up to {off:.2} of {} units: shapes are drawn in other places; move all of them nearer to 0, and viewBox with them",
-            width.max(height)
+            "coordinates this far from 0 are rounded, by up to {off:.2} of {side} units: shapes are drawn in other places; {cure}"
         )
     })
 }
@@ -88,6 +168,33 @@ pub(super) fn far_from_zero(root: Node<'_, '_>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shapes_that_a_transform_brings_back_are_told() {
+        let told = |shape: &str, x: f64| {
+            let document = roxmltree::Document::parse(shape).expect("a document");
+            let to_root = DAffine2::from_translation(DVec2::new(x, 0.0));
+            far_before_transform(document.root_element(), to_root, DVec2::new(200.0, 100.0))
+        };
+        for far in [
+            "<path d='M13000101 5h9'/>",
+            "<rect x='13000101'/>",
+            "<polygon points='13000101,5 6 7'/>",
+        ] {
+            let line = told(far, -13e6).expect(far);
+            assert!(line.contains("rounded, by up to 0.77 of 200 units"), "{line}");
+        }
+        for (near, x) in [
+            ("<path d='M101 5h9'/>", 0.0),
+            ("<path d='M101 5h9'/>", -13e6),
+            ("<rect x='13000101'/>", 0.0),
+            ("<g x='13000101'/>", -13e6),
+            ("<path d=''/>", -13e6),
+            ("<rect x='1101'/>", -1000.0),
+        ] {
+            assert_eq!(told(near, x), None, "{near}");
+        }
+    }
 
     #[test]
     fn roots_far_from_zero_are_told() {

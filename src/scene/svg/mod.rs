@@ -14,6 +14,7 @@ mod check;
 mod circles;
 mod clip;
 mod elements;
+mod fallback;
 mod families;
 mod fonts;
 mod guarded;
@@ -21,6 +22,7 @@ mod listener;
 mod marked;
 mod mended;
 mod nonsense;
+mod own_fonts;
 mod own_triangles;
 mod paint;
 mod painter;
@@ -38,10 +40,11 @@ mod values;
 mod viewports;
 
 use std::rc::Rc;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec2;
 use roxmltree::Node;
+use usvg::fontdb::Database;
 
 use self::painter::Painter;
 use self::pictures::Loading;
@@ -76,8 +79,9 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
     let prepared = prepare::prepare(root, text, builder)?;
     references::check(root, builder)?;
     let letters = prepared.letters;
+    let fonts = letters.map(|_| own_fonts::joined(fonts::database(), root, builder));
     let loading = Mutex::new(Loading::new(builder));
-    let tree = loading_tree(&prepared, &loading);
+    let tree = loading_tree(&prepared, fonts, &loading);
     let Loading {
         builder,
         pictures,
@@ -102,14 +106,14 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
 /// usvg's tree of a document.
 fn loading_tree<'doc>(
     prepared: &prepare::Prepared<'doc>,
+    fonts: Option<Arc<Database>>,
     loading: &Mutex<Loading<'_, 'doc>>,
 ) -> Result<Result<usvg::Tree, usvg::Error>, Problem> {
-    let fonts = prepared.letters.map(|_| fonts::database());
     let load = |address: &str| {
         let node = *prepared.images.get(prepared.elements.number(address)?)?;
         pictures::load(loading, node)
     };
-    guarded::tree(&prepared.text, &pictures::options(fonts, loading, load))
+    pictures::tree(&prepared.text, fonts, loading, load)
 }
 
 /// usvg's error in our words.

@@ -2,10 +2,14 @@
 //! counts; usvg takes black, or the dashes before what it does not understand. So their names are changed in the text that usvg reads. Selectors that simplecss passes over are
 //! told.
 
+use std::collections::HashSet;
+use std::ops::Range;
+
 use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
 use super::{sheets, values};
+use crate::scene::declarations::NESTED;
 use crate::scene::edits::Edits;
 use crate::scene::media;
 use crate::scene::report::quote;
@@ -24,10 +28,21 @@ pub(super) fn hide(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
         if is_nonsense(attribute.name(), attribute.value().trim()) {
             // With another name it might be there twice.
             edits.replace(attribute.range(), String::new());
+        } else if MISTAKEN.contains(&attribute.name()) || attribute.name() == "style" {
+            hide_profiles(text, attribute.range_value(), edits);
         }
         for at in in_style(text, attribute) {
             edits.insert(at, UNREAD.to_owned());
         }
+    }
+}
+
+/// Puts blanks in the place of colours of profiles in a part of `text`: usvg makes black of what has one.
+pub(super) fn hide_profiles(text: &str, part: Range<usize>, edits: &mut Edits) {
+    let value = text.get(part.clone()).unwrap_or("");
+    for (at, _) in value.match_indices(values::OF_PROFILE) {
+        let length = value[at..].find(')').map_or(value.len() - at, |close| close + 1);
+        edits.replace(part.start + at..part.start + at + length, " ".repeat(length));
     }
 }
 
@@ -45,17 +60,30 @@ fn in_style(text: &str, attribute: Attribute<'_, '_>) -> Vec<usize> {
     }
 }
 
+/// The texts of a style sheet, and where in `text` each begins; where references to entities stand in it, places cannot be told.
+fn parts<'s>(text: &str, sheet: Node<'s, '_>) -> impl Iterator<Item = (&'s str, Option<usize>)> {
+    sheet.children().filter(Node::is_text).map(|part| {
+        let css = part.text().unwrap_or("");
+        let raw = text.get(part.range());
+        let start = raw.and_then(|raw| raw.find(css)).map(|at| part.range().start + at);
+        (css, start)
+    })
+}
+
+/// What is to be said of rules of a sheet that are passed over, and where in `text` each stands, if that can be told.
+pub(super) fn rules_in_vain(text: &str, sheet: Node<'_, '_>) -> Vec<(Option<usize>, String)> {
+    let told = parts(text, sheet).flat_map(|(css, start)| {
+        let told = at_rules_in_vain(css).into_iter().chain(selectors_in_vain(css));
+        told.map(move |(at, message)| (start.map(|start| start + at), message))
+    });
+    told.collect()
+}
+
 /// Where in `text` the names stand that a style sheet gives such values to, and what is to be said of them.
 pub(super) fn names_in_sheet(text: &str, sheet: Node<'_, '_>) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for part in sheet.children().filter(Node::is_text) {
-        let css = part.text().unwrap_or("");
-        // Where references to entities stand in it, places cannot be told.
-        let Some(start) = text
-            .get(part.range())
-            .and_then(|raw| raw.find(css))
-            .map(|at| part.range().start + at)
-        else {
+    for (css, start) in parts(text, sheet) {
+        let Some(start) = start else {
             continue;
         };
         let mut sheet = StyleSheet::new();
@@ -91,35 +119,51 @@ const SELECTORS: [&str; 14] = [
     "nth-last-of-type",
 ];
 
-/// What is to be said of rules of a style sheet that are passed over because of their selectors.
-pub(super) fn selectors_in_vain(css: &str) -> Vec<String> {
+/// What is to be said of rules of a style sheet that are passed over because of their selectors, or because they stand inside of
+/// others; and where.
+fn selectors_in_vain(css: &str) -> Vec<(usize, String)> {
     let css = without_comments(css);
     let mut found = Vec::new();
-    let mut rest = css.as_str();
-    while let Some((selectors, block)) = rest.split_once('{') {
-        let (body, after) = block.split_at(block_end(block));
-        rest = after.strip_prefix('}').unwrap_or("");
-        let selectors = selectors.rsplit([';', '}']).next().unwrap_or("");
+    let mut at = 0;
+    while let Some(open) = css[at..].find('{').map(|open| at + open) {
+        let end = open + 1 + block_end(&css[open + 1..]);
+        let body = &css[open + 1..end];
+        let start = css[at..open].rfind([';', '}']).map_or(at, |mark| at + mark + 1);
+        at = (end + 1).min(css.len());
+        let selectors = css[start..open].trim_start();
+        let start = open - selectors.len();
         // Custom properties of the root are read, and then have other names.
         let is_empty = body
             .split(';')
             .all(|part| part.trim().is_empty() || part.trim().starts_with("x-"));
-        if !selectors.trim_start().starts_with('@') && !is_empty {
-            found.extend(unread_selector(selectors));
+        if !selectors.starts_with('@') && !is_empty {
+            found.extend(unread_selector(selectors).map(|message| (start, message)));
+        }
+        if let Some(nested) = body.find(NESTED).filter(|_| !selectors.starts_with('@')) {
+            let outer = quote(written(selectors).trim());
+            let message =
+                format!("the rules inside \"{outer}\" have no effect; write them behind it, with whole selectors");
+            found.push((open + 1 + nested, message));
         }
     }
+    each_once(found)
+}
+
+/// Each message where it is true first.
+fn each_once(mut found: Vec<(usize, String)>) -> Vec<(usize, String)> {
     found.sort();
-    found.dedup();
+    let mut told = HashSet::new();
+    found.retain(|(_, message)| told.insert(message.clone()));
     found
 }
 
 /// Rules with an `@` that hold others, or fetch them.
 const AT_RULES: [&str; 6] = ["@import", "@media", "@supports", "@layer", "@scope", "@container"];
-/// What is to be said of rules that hold others, all of which are passed over.
-pub(super) fn at_rules_in_vain(css: &str) -> Vec<String> {
+/// What is to be said of rules that hold others, all of which are passed over, and where.
+fn at_rules_in_vain(css: &str) -> Vec<(usize, String)> {
     let css = without_comments(css);
     let heads = AT_RULES.into_iter().flat_map(|name| css.match_indices(name));
-    let mut found: Vec<String> = heads
+    let found = heads
         .filter_map(|(at, name)| {
             let head = css[at..].split(['{', ';']).next().unwrap_or("").trim();
             let is_whole = !head[name.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '-');
@@ -127,19 +171,18 @@ pub(super) fn at_rules_in_vain(css: &str) -> Vec<String> {
             let is_meant = name != "@media" || media::applies(&head[name.len()..]).is_none();
             (is_whole && is_meant).then(|| {
                 let head = quote(head);
-                match name {
+                let message = match name {
                     "@import" => format!("\"{head}\" has no effect; other style sheets are not fetched"),
                     "@media" => format!(
                         "the rules inside \"{head}\" have no effect; whether such conditions hold is not looked at"
                     ),
                     _ => format!("the rules inside \"{head}\" have no effect; take them out of it"),
-                }
+                };
+                (at, message)
             })
         })
         .collect();
-    found.sort();
-    found.dedup();
-    found
+    each_once(found)
 }
 
 /// What is said of the first selector of a list that is passed over.
@@ -175,12 +218,14 @@ fn unread_selector(selectors: &str) -> Option<String> {
     ))
 }
 
-/// A style sheet without its comments.
+/// A style sheet with blanks in the place of its comments.
 fn without_comments(css: &str) -> String {
     let mut pieces = css.split("/*");
     let first = pieces.next().unwrap_or("").to_owned();
     pieces.fold(first, |all, piece| {
-        all + piece.split_once("*/").map_or("", |(_, after)| after)
+        let after = piece.split_once("*/").map_or("", |(_, after)| after);
+        let blanks = "/*".len() + piece.len() - after.len();
+        all + &" ".repeat(blanks) + after
     })
 }
 
@@ -213,9 +258,16 @@ mod tests {
                    .w-1\\/2 { z: 3 }";
         let told = selectors_in_vain(css);
         assert_eq!(told.len(), 4, "{told:?}");
+        assert!(told[0].1.contains("\"a:not(.b)\" is not understood (:not)"), "{told:?}");
+        assert_eq!(
+            told[0].0,
+            css.find(" a:not(.b)").map_or(0, |at| at + 1),
+            "where it stands"
+        );
+        let told = selectors_in_vain(".n{ x--:1;   } .m{}");
+        assert_eq!(told.len(), 1, "{told:?}");
         assert!(
-            told.iter()
-                .any(|line| line.contains("\"a:not(.b)\" is not understood (:not)")),
+            told[0].0 == 4 && told[0].1.starts_with("the rules inside \".n\""),
             "{told:?}"
         );
     }
@@ -227,8 +279,14 @@ mod tests {
         let told = at_rules_in_vain(css);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
-            told[0].contains("\"@import url(a.css)\"") && told[1].contains("\"@media (prefers-color-scheme: dark)\""),
+            told[0].1.contains("\"@import url(a.css)\"")
+                && told[1].1.contains("\"@media (prefers-color-scheme: dark)\""),
             "{told:?}"
+        );
+        assert_eq!(
+            [told[0].0, told[1].0],
+            [0, css.find("@media (").unwrap_or(0)],
+            "where they stand"
         );
         assert!(at_rules_in_vain("@important @layer").len() == 1, "only whole words");
     }
@@ -244,7 +302,7 @@ mod tests {
             "a:not(b",
             "{ }}{",
         ] {
-            assert_eq!(selectors_in_vain(css), [""; 0], "{css}");
+            assert_eq!(selectors_in_vain(css), [], "{css}");
         }
     }
 }

@@ -237,7 +237,13 @@ impl<'doc> Painter<'_, 'doc> {
         if let Some(stroke) = &area.stroke
             && stroke.is_too_fine(&area.path)
         {
-            self.warn_once("more than 200000 dashes; the line is drawn without gaps");
+            let node = self.painting.unwrap_or(self.root);
+            let message = format!(
+                "more than 200000 dashes; the line of this <{}> is drawn without gaps: make its dashes longer, or cut what lies outside of the picture",
+                node.tag_name().name()
+            );
+            let location = self.builder.locate(node);
+            self.builder.report.warn_once(location, &message);
         }
         let edges = self.edges_for(path, place, stroke.width().get());
         self.builder.fill_curved(

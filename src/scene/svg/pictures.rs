@@ -11,11 +11,12 @@ use roxmltree::Node;
 use usvg::fontdb::Database;
 use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 
+use super::fallback::Fallbacks;
 use super::families;
 use super::fonts::{self, Missing};
 use super::listener::Listener;
 use super::own_triangles::{self, Drawn};
-use super::{guarded, prepare, references};
+use super::{guarded, own_fonts, prepare, references};
 use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
 use crate::scene::error::Fault;
@@ -89,27 +90,41 @@ fn lock<'l, 'a, 'doc>(loading: &'l Mutex<Loading<'a, 'doc>>) -> MutexGuard<'l, L
     loading.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How usvg shall read: `load` finds images by the addresses that they were given.
-pub(super) fn options<'o, 'doc>(
+/// usvg's tree of a document: `load` finds images by the addresses that they were given.
+///
+/// # Errors
+/// [`Problem::Reader`] where usvg panics.
+pub(super) fn tree(
+    text: &str,
     fonts: Option<Arc<Database>>,
-    loading: &'o Mutex<Loading<'_, 'doc>>,
-    load: impl Fn(&str) -> Option<ImageKind> + Send + Sync + 'o,
-) -> Options<'o> {
-    Options {
-        font_family: families::UNNAMED.to_owned(),
-        fontdb: fonts.unwrap_or_default(),
-        font_resolver: fonts::resolver(|missing| {
-            let found = &mut lock(loading).missing;
-            if !missing.is_told_by(found) {
-                found.push(missing);
-            }
-        }),
-        image_href_resolver: ImageHrefResolver {
-            // Images have addresses of ours; what else asks for one, as a filter may, gets none.
-            resolve_data: Box::new(|_, _, _| None),
-            resolve_string: Box::new(move |address, _| load(address)),
-        },
-        ..Options::default()
+    loading: &Mutex<Loading<'_, '_>>,
+    load: impl Fn(&str) -> Option<ImageKind> + Send + Sync,
+) -> Result<Result<usvg::Tree, usvg::Error>, Problem> {
+    let fonts = fonts.unwrap_or_default();
+    let fallbacks = Fallbacks::default();
+    let read = || {
+        let options = Options {
+            font_family: families::UNNAMED.to_owned(),
+            fontdb: Arc::clone(&fonts),
+            font_resolver: fonts::resolver(&fallbacks, |missing| {
+                let found = &mut lock(loading).missing;
+                if !missing.is_told_by(found) {
+                    found.push(missing);
+                }
+            }),
+            image_href_resolver: ImageHrefResolver {
+                // Images have addresses of ours; what else asks for one, as a filter may, gets none.
+                resolve_data: Box::new(|_, _, _| None),
+                resolve_string: Box::new(|address, _| load(address)),
+            },
+            ..Options::default()
+        };
+        guarded::tree(text, &options)
+    };
+    match read()? {
+        // Pictures are loaded once, and what is missing is told once.
+        Ok(tree) if fallbacks.fail(&tree) => read(),
+        read => Ok(read),
     }
 }
 
@@ -232,7 +247,8 @@ fn nested(
     let mut listener = Outside { loading, location };
     let prepared = prepare::prepare(root, source.text(), &mut listener)?;
     references::check(root, &mut listener)?;
-    let fonts = prepared.letters.map(|_| fonts::database());
+    let fonts = prepared.letters;
+    let fonts = fonts.map(|_| own_fonts::joined(fonts::database(), root, &mut listener));
     let load = |address: &str| {
         let node = *prepared.images.get(prepared.elements.number(address)?)?;
         let address = attributes::href(node).filter(|address| is_data(address))?;
@@ -242,8 +258,7 @@ fn nested(
             lock(loading).builder.report.warn(location, message);
         })
     };
-    let options = options(fonts, loading, load);
-    let tree = guarded::tree(&prepared.text, &options).map_err(Problem::nowhere)?;
+    let tree = self::tree(&prepared.text, fonts, loading, load).map_err(Problem::nowhere)?;
     let tree = tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())?;
     let (triangles, report) = own_triangles::drawn(&source, prepared.elements.triangles(), |address| {
         lock(loading).builder.textures.request(address.to_owned(), location)
@@ -272,6 +287,10 @@ impl Listener for Outside<'_, '_, '_> {
     fn warn(&mut self, _node: Node<'_, '_>, message: String) {
         let message = format!("in the image: {message}");
         lock(self.loading).builder.report.warn(self.location, message);
+    }
+
+    fn warn_at(&mut self, _at: usize, node: Node<'_, '_>, message: String) {
+        self.warn(node, message);
     }
 
     fn fault(&self, problem: Problem, _node: Node<'_, '_>, _attribute: &str) -> Fault {

@@ -10,7 +10,7 @@ use super::elements::Elements;
 use super::listener::Listener;
 use super::marked::Marks;
 use super::values::{self, WHITENS};
-use super::{cascade, mended, nonsense, own_triangles, sheets, styles, text_paths, viewports};
+use super::{cascade, mended, nonsense, own_triangles, sheets, styles, text_paths, transforms, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
@@ -93,6 +93,8 @@ struct Preparation<'a, 'doc, L> {
     read: usize,
     marks: Marks<'a>,
     names: own_triangles::Names,
+    /// Whether it is told that coordinates are rounded.
+    is_far_told: bool,
     listener: &'a mut L,
 }
 
@@ -121,6 +123,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         read: 0,
         marks,
         names,
+        is_far_told: false,
         listener,
     };
     if let Some(message) = mended::style_elsewhere(root) {
@@ -128,6 +131,7 @@ pub(super) fn prepare<'doc, L: Listener>(
     }
     preparation.namespace(root);
     if let Some(message) = mended::far_from_zero(root) {
+        preparation.is_far_told = true;
         preparation.listener.warn(root, message);
     }
     preparation.tree(root)?;
@@ -221,7 +225,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let look = check::look(self.listener, node, &styled, is_told)?;
         viewports::resolve(node, &mut styled, &self.elements, viewport);
         let to_root = around.to_root * look.to_parent;
-        if !is_within_floats(to_root, look.reach) {
+        if !transforms::is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
         }
         let heard = heard && look.displayed && !viewports::hides(node);
@@ -236,6 +240,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         styled.write(self.text, node, self.name_end(node), &mut self.edits);
         mended::trim_numbers(self.text, node, &styled, &mut self.edits);
         mended::mend_filter(node, &self.elements, &mut self.edits);
+        let far = viewport.filter(|_| heard && !self.is_far_told);
+        if let Some(message) = far.and_then(|picture| mended::far_before_transform(node, to_root, picture)) {
+            self.is_far_told = true;
+            self.listener.warn(node, message);
+        }
+        if let Some(message) = mended::clips_nothing(node, &self.elements).filter(|_| heard) {
+            self.listener.warn(node, message);
+        }
         match name {
             "image" => self.image(node, heard),
             "use" if heard => self.used(node),
@@ -338,15 +350,19 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             for at in cuts {
                 self.edits.insert(at, between.clone());
             }
+            for part in node.children().filter(Node::is_text) {
+                nonsense::hide_profiles(self.text, part.range(), &mut self.edits);
+            }
             self.other_media(node);
-            let css: String = node.children().filter_map(|part| part.text()).collect();
-            let at_rules = nonsense::at_rules_in_vain(&css).into_iter();
-            for message in at_rules.chain(nonsense::selectors_in_vain(&css)) {
-                self.listener.warn(node, message);
+            for (at, message) in nonsense::rules_in_vain(self.text, node) {
+                match at {
+                    Some(at) => self.listener.warn_at(at, node, message),
+                    None => self.listener.warn(node, message),
+                }
             }
             for (at, message) in nonsense::names_in_sheet(self.text, node) {
                 self.edits.insert(at, nonsense::UNREAD.to_owned());
-                self.listener.warn(node, message);
+                self.listener.warn_at(at, node, message);
             }
         }
     }
@@ -443,14 +459,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
 /// Whether usvg makes something of elements of this name.
 pub(crate) fn is_understood(name: &str) -> bool {
     UNDERSTOOD.contains(&name)
-}
-
-/// Whether no coordinate up to `reach` is moved beyond the range of 32-bit floats.
-fn is_within_floats(to_root: DAffine2, reach: f64) -> bool {
-    let [x, y] = [to_root.matrix2.x_axis.abs(), to_root.matrix2.y_axis.abs()];
-    let furthest = (x + y) * reach + to_root.translation.abs();
-    // What is not a number is beyond it, too.
-    furthest.cmple(DVec2::splat(f64::from(f32::MAX))).all()
 }
 
 /// Whether a `switch` has something else to show than this.

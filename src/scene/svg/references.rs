@@ -12,6 +12,7 @@ use super::listener::Listener;
 use super::styles::{By, Styles};
 use super::values;
 use crate::scene::error::Fault;
+use crate::scene::report::quote;
 use crate::scene::{Problem, attributes};
 
 /// Most elements that usvg may look at, those that are referred to counted again with everything inside.
@@ -47,6 +48,8 @@ struct Found {
     is_shared: bool,
     /// Corners of its paths, at each of which a marker is drawn that it hands down.
     corners: u64,
+    /// Its paths, at an end of each of which a marker is drawn; there are no more of them than elements.
+    paths: u64,
 }
 
 /// Something that an element refers to.
@@ -83,7 +86,12 @@ pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L)
     search.run(root, listener)?;
     for Unmet { node, by, id } in search.unmet.drain(..) {
         if let Some(property) = property(by, node) {
-            listener.warn(node, format!("{property} refers to #{id}, and no element has that id"));
+            let instead = instead(node, property, id);
+            let instead = instead.map_or_else(String::new, |paint| format!("; {} is taken", quote(paint)));
+            listener.warn(
+                node,
+                format!("{property} refers to #{id}, and no element has that id{instead}"),
+            );
         }
     }
     if !search.has_circles {
@@ -169,6 +177,18 @@ fn property(by: By, node: Node<'_, '_>) -> Option<&'static str> {
     })
 }
 
+/// The paint that an element names behind a reference, for where nothing has that id.
+fn instead<'doc>(node: Node<'doc, 'doc>, property: &str, id: &str) -> Option<&'doc str> {
+    let style = simplecss::DeclarationTokenizer::from(node.attribute("style").unwrap_or(""));
+    let declared = style
+        .filter(|declaration| declaration.name == property)
+        .map(|declaration| declaration.value);
+    let mut values = declared.chain(node.attribute(property));
+    let value = values.find(|value| values::reference(value) == Some(id))?;
+    let (_, instead) = value.split_once(')')?;
+    Some(instead.trim()).filter(|instead| !instead.is_empty())
+}
+
 /// Whether it is a gradient or a pattern.
 fn is_server(node: Node<'_, '_>) -> bool {
     matches!(node.tag_name().name(), "linearGradient" | "radialGradient" | "pattern")
@@ -222,7 +242,7 @@ impl<'doc> Search<'_, 'doc> {
         if found.depth > MAX_DEPTH {
             Some((DEEP, MAX_DEPTH as u64))
         } else if self.references > MAX_REFERENCES {
-            let what = "references to gradients, patterns, clip paths and masks";
+            let what = "references to gradients, patterns, clip paths, masks and markers, one for each shape or corner (shapes that look alike can be one path)";
             Some((what, MAX_REFERENCES))
         } else if found.work > MAX_WORK || self.steps > MAX_SEARCH {
             Some(("elements, with those that references repeat", MAX_WORK))
@@ -320,6 +340,7 @@ impl Found {
             numbers: numbers.saturating_add(OF_A_LETTER * letters),
             // Most corners have two numbers or more.
             corners: numbers.div_ceil(2),
+            paths: 1,
         }
     }
 
@@ -327,8 +348,7 @@ impl Found {
     fn times(self, by: By) -> u64 {
         match by {
             By::Marker => self.corners.max(1),
-            // One for each path; there are no more of those than elements.
-            By::EndMarker => self.work,
+            By::EndMarker => self.paths,
             _ => 1,
         }
     }
@@ -340,6 +360,7 @@ impl Found {
         self.depth = self.depth.max(inside.depth + 1);
         if matches!(by, By::Inside | By::Href) {
             self.corners = self.corners.saturating_add(inside.corners);
+            self.paths = self.paths.saturating_add(inside.paths);
         }
     }
 }

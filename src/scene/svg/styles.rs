@@ -7,7 +7,7 @@ use roxmltree::{Node, NodeId};
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
 use super::listener::Listener;
-use super::{marked, sheets};
+use super::{marked, nonsense, sheets};
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
@@ -210,7 +210,7 @@ impl Effects {
     }
 }
 
-/// The references in the value of a property.
+/// The references in the value of a property; a value without a meaning has none.
 fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str)> + use<'v> {
     let by = match name {
         "clip-path" => Some(By::Clip),
@@ -222,6 +222,7 @@ fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str
         "filter" => Some(By::Filter),
         _ => None,
     };
+    let by = by.filter(|_| !value.contains("url(") || !nonsense::is_nonsense(name, value.trim()));
     by.into_iter().flat_map(move |by| {
         let parts = value.split("url(").skip(1);
         parts.filter_map(move |part| {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use glam::{DAffine2, DVec2};
 use svgtypes::{Length, LengthUnit};
 
 use super::values;
@@ -86,6 +87,14 @@ fn degrees(text: &str) -> Option<f64> {
         .find_map(|(unit, degrees)| Some((text.strip_suffix(unit)?, degrees)));
     let (text, degrees) = unit.unwrap_or((text, 1.0));
     number(text.trim()).map(|number| number * degrees)
+}
+
+/// Whether no coordinate up to `reach` is moved beyond the range of 32-bit floats.
+pub(super) fn is_within_floats(to_root: DAffine2, reach: f64) -> bool {
+    let [x, y] = [to_root.matrix2.x_axis.abs(), to_root.matrix2.y_axis.abs()];
+    let furthest = (x + y) * reach + to_root.translation.abs();
+    // What is not a number is beyond it, too.
+    furthest.cmple(DVec2::splat(f64::from(f32::MAX))).all()
 }
 
 #[cfg(test)]

@@ -57,21 +57,25 @@ const BLEND_MODES: [&str; 16] = [
 ];
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 18] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 22] = [
     ("all", &[]),
     ("animation", &["none"]),
     ("animation-name", &["none"]),
+    ("backdrop-filter", &["none"]),
     ("clip", &["auto"]),
+    ("color-interpolation", &["auto", "sRGB", "srgb"]),
     // As a property: the attribute holds no function.
     ("d", &["none"]),
     ("direction", &["ltr"]),
     ("filter", &["none"]),
     ("font-variant", &["normal"]),
+    ("image-orientation", &["none", "from-image"]),
     ("inline-size", &["auto", "0", "0px"]),
     ("mask-image", &["none"]),
     ("rotate", &["none", "0", "0deg"]),
     ("scale", &["none", "1"]),
     ("shape-inside", &["auto"]),
+    ("text-shadow", &["none"]),
     ("text-transform", &["none"]),
     ("transform-box", &["view-box"]),
     ("translate", &["none", "0", "0px"]),
@@ -97,7 +101,14 @@ fn kind(name: &str) -> Option<Kind> {
         "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
         "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),
         "visibility" => Kind::Words(&["visible", "hidden", "collapse"]),
-        "filter" | "vector-effect" | "font-variant" | "direction" | "clip" | "white-space" => Kind::Words(&[]),
+        "color-interpolation"
+        | "image-orientation"
+        | "filter"
+        | "vector-effect"
+        | "font-variant"
+        | "direction"
+        | "clip"
+        | "white-space" => Kind::Words(&[]),
         "mix-blend-mode" => Kind::Words(&BLEND_MODES),
         "shape-rendering" => Kind::Words(&["auto", "geometricPrecision", "crispEdges", "optimizeSpeed"]),
         "image-rendering" => Kind::Words(&[
@@ -132,6 +143,15 @@ pub(super) fn is_without_effect(name: &str, value: &str) -> bool {
     let is_named = name != "animation" || value.split_whitespace().all(|word| word != "none");
     let is_harmless = harmless.contains(&value) || matches!(value, "inherit" | "initial");
     is_named && (name == "all" || !is_harmless)
+}
+
+/// What a colour of a profile begins with.
+pub(super) const OF_PROFILE: &str = "icc-color(";
+
+/// A colour without that of a profile behind it, in whose place it is shown (SVG 1.1, section 12.3).
+fn without_profile(value: &str) -> &str {
+    let color = value.split_once(OF_PROFILE).map(|(color, _)| color.trim_end());
+    color.filter(|color| !color.is_empty()).unwrap_or(value)
 }
 
 /// Whether it is known what values belong to the name.
@@ -170,8 +190,8 @@ pub(super) fn is_understood(name: &str, value: &str) -> bool {
             .unwrap_or(value)
             .parse::<svgtypes::Number>()
             .is_ok(),
-        Kind::Paint => Paint::from_str(value).is_ok(),
-        Kind::Color => value == "currentColor" || value.parse::<svgtypes::Color>().is_ok(),
+        Kind::Paint => Paint::from_str(without_profile(value)).is_ok(),
+        Kind::Color => value == "currentColor" || without_profile(value).parse::<svgtypes::Color>().is_ok(),
         Kind::Reference => value.starts_with("url("),
         Kind::Transform => transform(value).is_some(),
         Kind::Points => {

@@ -448,7 +448,8 @@ fn auto_says_where_another_reading_is_another_picture() {
         DialectChoice::Auto,
     );
     let note = scene.reading_note(", for a reason").unwrap();
-    let expected = "read as svg, for a reason; --dialect course makes another picture of it";
+    let expected = "read as svg, for a reason; --dialect course makes another picture of it (course is the simple reader of \
+                    a course: rasterscope help pixels)";
     assert_eq!(note, expected, "which, why, and the option for the other");
 }
 

@@ -323,9 +323,9 @@ fn text_is_outlines_of_the_shipped_typefaces() {
         "\n<text y='50' font-family='No Such, Neither Such'>Hi <tspan font-family='No Such'>you</tspan></text>",
     );
     let told = lines(&named);
-    assert_eq!(told.len(), 2, "each family once: {told:?}");
+    assert_eq!(told.len(), 2, "each list once: {told:?}");
     assert!(
-        told[0].starts_with("2:1: there is no typeface No Such; Ubuntu is taken instead"),
+        told[0].starts_with("2:1: there is no typeface No Such or Neither Such; Ubuntu is taken instead"),
         "{told:?}"
     );
     let bold = svg_scene(
@@ -342,8 +342,46 @@ fn text_is_outlines_of_the_shipped_typefaces() {
         told[0].starts_with("2:1: there is no typeface with the character \u{13000} (U+13000); a box"),
         "{told:?}"
     );
+    let letters = |text: &str| svg_scene(&format!("<text y='50' font-size='20'>{text}</text>"));
+    let (alone, beside) = (area(&letters("Small")), letters("Small \u{2192}"));
+    let sign = svg_scene("<text y='50' font-size='20' font-family='Hack'>\u{2192}</text>");
+    assert!(
+        (area(&beside) - alone - area(&sign)).abs() < 0.01 * alone,
+        "only the missing sign is of another typeface: {} beside {alone} and {}",
+        area(&beside),
+        area(&sign)
+    );
+    assert!(lines(&beside).is_empty(), "{:?}", lines(&beside));
     let mono = svg_scene("<text y='50' font-family='Hack'>Hi</text>");
     assert!(lines(&mono).is_empty(), "it is shipped: {:?}", lines(&mono));
+}
+
+#[test]
+fn typefaces_inside_a_document_are_read() {
+    let bytes: String = epaint_default_fonts::HACK_REGULAR
+        .iter()
+        .flat_map(|byte| {
+            let digits = [byte >> 4, byte & 15].map(|digit| char::from_digit(digit.into(), 16));
+            ['%'].into_iter().chain(digits.into_iter().flatten())
+        })
+        .collect();
+    let text = |family: &str, source: &str| {
+        svg_scene(&format!(
+            "<style>@font-face {{ font-family: Mine; src: url({source}) }}</style>\n\
+             <text y='50' font-family='{family}'>Hi</text>"
+        ))
+    };
+    let own = text("Mine", &format!("data:font/ttf,{bytes}"));
+    assert!(lines(&own).is_empty(), "{:?}", lines(&own));
+    assert!(
+        (area(&own) - area(&text("Hack", "local(x)"))).abs() < 1e-9,
+        "its letters"
+    );
+    let told = lines(&text("Mine", "data:font/woff2;base64,d09GMgAA"));
+    assert!(
+        told[0].starts_with("1:") && told[0].contains("the typeface Mine in the document is not read: it is WOFF2"),
+        "{told:?}"
+    );
 }
 
 #[test]

@@ -215,6 +215,24 @@ fn long_texts_and_many_letters_are_told_as_what_they_are() {
 }
 
 #[test]
+fn markers_count_once_for_each_path() {
+    let path =
+        |data: &str| format!("<path d='{data}' style='marker-start:url(#a);marker-mid:url(#a);marker-end:url(#a)'/>");
+    let marker = "<marker id='a'><rect width='1' height='1'/></marker>";
+    let line = outcome(
+        "three markers",
+        &format!("{marker}{}", path("M10 10L5 5").repeat(16_000)),
+    );
+    assert!(!line.contains("more than"), "{line}");
+    let corners = path(&format!("M0 0{}", "L1 1".repeat(200_000)));
+    let line = outcome("many corners", &format!("{marker}{corners}"));
+    assert!(
+        line.contains("masks and markers, one for each shape or corner"),
+        "{line}"
+    );
+}
+
+#[test]
 fn references_in_circles_end() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {

@@ -88,6 +88,10 @@ fn styles_are_read_as_css_writes_them() {
 fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
     for style in [
         "all:unset",
+        "backdrop-filter:blur(2px)",
+        "color-interpolation:linearRGB",
+        "image-orientation:90deg",
+        "text-shadow:1px 1px red",
         "clip:rect(0 0 0 0)",
         "d:path(&quot;M0 0H9&quot;)",
         "inline-size:50px",
@@ -114,9 +118,103 @@ fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
     for style in [
         "clip:auto;d:none;rotate:none;scale:1",
         "transform-box:view-box;white-space:normal",
+        "backdrop-filter:none;color-interpolation:sRGB;text-shadow:none",
     ] {
         let told = lines(&svg_scene(&format!("<path d='M0 0H9V9' style='{style}'/>")));
         assert_eq!(told, [""; 0], "{style}");
+    }
+}
+
+#[test]
+fn what_a_sheet_says_in_vain_is_told_where_it_stands() {
+    let sheet = "<style>\n/* a */ .c:not(.d) { fill: red }\n@import url(a.css);\n .e {\n fill: blu; }\n\
+                 .n { rect { fill: red }\n &amp; g { x: y } }</style><rect width='9' height='9'/>";
+    let told = lines(&svg_scene(sheet));
+    let places: Vec<&str> = told.iter().map(|line| &line[..4]).collect();
+    assert_eq!(places, ["3:1:", "2:9:", "6:6:", "5:2:"], "{told:?}");
+    assert!(told[2].contains("the rules inside \".n\" have no effect"), "{told:?}");
+}
+
+#[test]
+fn colours_of_profiles_leave_those_beside_them() {
+    for look in [
+        "fill='#f00 icc-color(x, 0.1, 0.2)'",
+        "style='fill:#f00 icc-color(x,.1);stroke:none'",
+        "fill='red icc-color(x'",
+        "class='p'",
+    ] {
+        let body = format!("<style>.p{{fill:red icc-color(a, 1)}}</style><rect width='9' height='9' {look}/>");
+        let scene = svg_scene(&body);
+        assert_eq!((color(&scene), lines(&scene)), (RED, Vec::new()), "{look}");
+    }
+}
+
+#[test]
+fn what_is_told_of_a_paint_is_told_once() {
+    let told = |look: &str| lines(&svg_scene(&format!("<rect width='9' height='9' {look}/>")));
+    let both = told("style='fill:url(#q),orange'");
+    assert!(both.len() == 1 && both[0].contains("is not understood"), "{both:?}");
+    for look in ["fill='url(#nope) green'", "style='fill:url(#nope) green'"] {
+        let told = told(look);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(
+            told[0].ends_with("fill refers to #nope, and no element has that id; green is taken"),
+            "{told:?}"
+        );
+    }
+}
+
+#[test]
+fn backgrounds_of_pages_are_told() {
+    use rasterscope::scene::DialectChoice;
+    let told = |root: &str, inside: &str| {
+        let text = format!("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9' {root}>{inside}</svg>");
+        lines(&crate::support::documents::read(&text, DialectChoice::Svg))
+    };
+    for (root, inside, name, color) in [
+        ("style='background:#223'", "", "background", "#222233"),
+        ("style='background-color: navy'", "", "background-color", "#000080"),
+        (
+            "",
+            "<style>svg{background:linear-gradient(red, lime)}</style>",
+            "background",
+            "COLOUR",
+        ),
+    ] {
+        let told = told(root, inside);
+        let expected = format!("{name} is not drawn; use --background {color}, or a <rect> behind all");
+        assert!(told.len() == 1 && told[0].ends_with(&expected), "{told:?}");
+    }
+    for (root, inside) in [
+        ("style='background:white'", ""),
+        ("style='background:transparent'", ""),
+        ("style='background:none'", ""),
+        ("", "<g style='background:red'/>"),
+    ] {
+        assert_eq!(told(root, inside), [""; 0], "{root}{inside}");
+    }
+}
+
+#[test]
+fn what_clips_nothing_is_told() {
+    for (part, expected) in [
+        (
+            "<g><rect width='5' height='5'/></g>",
+            Some("<g> in a clipPath has no effect"),
+        ),
+        ("<use href='#g'/>", Some("<use> of <g> in a clipPath has no effect")),
+        ("<use href='#r'/>", None),
+        ("<rect width='5' height='5'/>", None),
+    ] {
+        let body = format!(
+            "<defs><g id='g'><rect id='r' width='5' height='5'/></g></defs><clipPath id='c'>\n{part}</clipPath>\
+             <rect width='9' height='9' clip-path='url(#c)'/>"
+        );
+        let told = lines(&svg_scene(&body));
+        let is_told = told
+            .iter()
+            .any(|line| line.starts_with("2:1: ") && expected.is_some_and(|told| line.contains(told)));
+        assert_eq!(is_told, expected.is_some(), "{told:?}");
     }
 }
 

@@ -70,7 +70,7 @@ pub(crate) fn near_light<S: Simd>(simd: S, bytes: f32x16<S>) -> f32x16<S> {
 
 /// The stored values of such light, in bytes, and how far they may be off where light is `off` by so much.
 #[inline(always)]
-fn near_bytes<S: Simd>(simd: S, light: f32x16<S>, off: f32) -> [f32x16<S>; 2] {
+fn near_bytes<S: Simd>(simd: S, light: f32x16<S>, off: f32x16<S>) -> [f32x16<S>; 2] {
     let root = light.sqrt();
     let fourth = root.sqrt();
     let mut bytes = f32x16::splat(simd, ROOTS[0]);
@@ -85,6 +85,29 @@ fn near_bytes<S: Simd>(simd: S, light: f32x16<S>, off: f32) -> [f32x16<S>; 2] {
         is_straight.select(light * straight, bytes),
         is_straight.select(straight, slope) * off + BYTES_OFF,
     ]
+}
+
+/// The bytes of light that may be off by so much, and which of them are certain; from this part on a byte is rounded up, and that much
+/// less.
+#[inline(always)]
+pub(crate) fn certain_bytes_of_light<S: Simd>(
+    simd: S,
+    light: f32x16<S>,
+    off: f32x16<S>,
+    rounded: f32,
+) -> (i32x16<S>, mask32x16<S>) {
+    let [bytes, off] = near_bytes(simd, light, off);
+    certain_bytes(simd, bytes + rounded, off)
+}
+
+/// The whole parts of bytes that may be off by so much, and which of them are certain.
+#[inline(always)]
+pub(crate) fn certain_bytes<S: Simd>(simd: S, bytes: f32x16<S>, off: f32x16<S>) -> (i32x16<S>, mask32x16<S>) {
+    let (low, high) = (
+        (bytes - off).max(f32x16::splat(simd, 0.0)).floor(),
+        (bytes + off).floor(),
+    );
+    (low.to_int(), low.simd_eq(high))
 }
 
 /// Makes pixels of sums of [`near_light`].
@@ -121,13 +144,12 @@ impl<'r> NearLight<'r> {
     /// The bytes of such sums of light, and which of them are certain.
     #[inline(always)]
     fn bytes<S: Simd>(&self, simd: S, sums: f32x16<S>) -> (i32x16<S>, mask32x16<S>) {
-        let [bytes, off] = near_bytes(simd, sums * self.per_sample, self.off);
-        let bytes = bytes + self.rounded;
-        let (low, high) = (
-            (bytes - off).max(f32x16::splat(simd, 0.0)).floor(),
-            (bytes + off).floor(),
-        );
-        (low.to_int(), low.simd_eq(high))
+        certain_bytes_of_light(
+            simd,
+            sums * self.per_sample,
+            f32x16::splat(simd, self.off),
+            self.rounded,
+        )
     }
 
     /// The pixels `0xAARRGGBB` of so much red, green and blue light in all of their samples, and a bit for each pixel of which that is
@@ -233,7 +255,7 @@ mod tests {
                 for off in [-LIGHT_OFF, 0.0, LIGHT_OFF] {
                     let light = moved(exact, off);
                     let [bytes, most] = dispatch!(level, simd => {
-                        let [bytes, off] = near_bytes(simd, f32x16::splat(simd, light), LIGHT_OFF);
+                        let [bytes, off] = near_bytes(simd, f32x16::splat(simd, light), f32x16::splat(simd, LIGHT_OFF));
                         [bytes.to_array()[0], off.to_array()[0]]
                     });
                     let is_off = (f64::from(bytes) - value).abs();

@@ -65,6 +65,11 @@ impl ResolveSpace {
         }
     }
 
+    /// What of an opaque sample is summed up in light, for each value that a channel may have: of `2^24` parts.
+    pub(crate) fn light() -> &'static [i32] {
+        &LIGHT
+    }
+
     /// What [`ResolveSpace::parts`] are at most, but for alpha.
     fn full(self) -> f64 {
         match self {

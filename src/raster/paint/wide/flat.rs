@@ -56,6 +56,11 @@ impl PixelBits {
     pub(in crate::raster::paint) const ALL: Self = Self(u64::MAX);
 
     /// The first pixel in the lowest bit.
+    pub(super) fn new(bits: u64) -> Self {
+        Self(bits)
+    }
+
+    /// The first pixel in the lowest bit.
     pub(in crate::raster::paint) fn word(self) -> u64 {
         self.0
     }

@@ -12,6 +12,7 @@
 //! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in numbers of 16 bits ([`dot_sums`], [`dot_means`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
 //! | with stored values at the same places in every pixel | all pixels around a split one at once ([`same_places`]) |
+//! | with opaque samples anywhere, and in light | 32-bit floats, if these leave nothing open ([`near_sums`], [`near_means`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |
 //!
 //! Where samples lie anywhere, weights below zero may happen to outweigh the others. A pixel whose weights add up to less than
@@ -21,6 +22,8 @@ mod dot_means;
 mod dot_sums;
 pub(in crate::raster::paint) mod flat;
 mod free;
+mod near_means;
+mod near_sums;
 #[cfg(test)]
 mod random_tile;
 mod same_places;
@@ -32,12 +35,17 @@ use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
 use crate::raster::paint::wide::dot_sums::DotSums;
 use crate::raster::paint::wide::flat::FlatPixels;
 use crate::raster::paint::wide::free::{FreeSums, WeighedPositions};
+use crate::raster::paint::wide::near_sums::{NearSums, PaintedTile};
 use crate::raster::paint::wide::same_places::SamePlaces;
 use crate::raster::paint::wide::separable::SeparableSums;
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::context::ShadeContext;
 use crate::rules::Rules;
+
+/// The most samples along the side of a pixel, on a grid, for which all pixels around a sample at once take less time than rows and then
+/// columns.
+const MOST_NEAR: i32 = 8;
 
 /// Resolves tiles, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -48,6 +56,8 @@ pub(in crate::raster) struct WideResolve {
     /// What becomes of pixels by how far they were clamped, where that is shown.
     clamped: Option<fn([f64; 2], u32) -> u32>,
     flat: FlatPixels,
+    /// What resolves tiles of opaque samples without `sums`.
+    near: Option<NearSums>,
     sums: Sums,
 }
 
@@ -114,8 +124,15 @@ impl WideResolve {
             },
             ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &samples.weights, side)),
         };
+        let is_near = match sums {
+            Sums::Dots(_) | Sums::Stored(_) => false,
+            Sums::Light(_) => side <= MOST_NEAR,
+            Sums::Same(_) | Sums::Free(_) => true,
+        };
+        let near = is_near.then(|| NearSums::new(context.space, &samples, rules)).flatten();
         Self {
             samples,
+            near,
             space: context.space,
             rules,
             clamped: context.clamped,
@@ -166,6 +183,16 @@ impl WideResolve {
             rules: self.rules,
             clamped: self.clamped,
         };
+        if let Some(near) = &mut self.near {
+            let tile = PaintedTile {
+                colors,
+                samples: &self.samples,
+                flat: &self.flat,
+            };
+            if near.resolve(tile, &finish, block) {
+                return;
+            }
+        }
         let mut put = |[x, y]: [usize; 2], sum: WeightedSum| {
             let line = block.line(block.rect.y.start + i32::try_from(y).unwrap_or(0));
             line[x] = finish.pixel([x, y], sum);

@@ -129,6 +129,8 @@ impl WideResolve {
             Sums::Light(_) => side <= MOST_NEAR,
             Sums::Same(_) | Sums::Free(_) => true,
         };
+        // They, too, clamp what they sum up at once.
+        let is_near = is_near && context.clamped.is_none();
         let near = is_near.then(|| NearSums::new(context.space, &samples, rules)).flatten();
         Self {
             samples,

@@ -452,6 +452,7 @@ mod tests {
                 margin,
                 space,
                 rules,
+                clamped: None,
             };
             let tile = PaintedTile {
                 colors: &colors,

@@ -380,12 +380,13 @@ fn svg_styles_count_as_css_has_it() {
 fn svg_tells_nothing_of_what_nobody_misses() {
     for body in [
         "<text font-family='sans-serif, Nonexistent'>a</text>",
+        "<text font-family='Nonexistent, sans-serif'>a</text>",
         "<image visibility='hidden' width='9' height='9'/>",
         "<view id='v' viewBox='0 0 5 5'/><cursor/>",
     ] {
         assert_eq!(lines(&svg_scene(body)), [""; 0], "{body}");
     }
-    let missing = lines(&svg_scene("<text font-family='Nonexistent, sans-serif'>a</text>"));
+    let missing = lines(&svg_scene("<text font-family='Nonexistent, Gone'>a</text>"));
     assert!(missing.len() == 1 && missing[0].contains("Nonexistent"), "{missing:?}");
 }
 

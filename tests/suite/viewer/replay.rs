@@ -55,7 +55,7 @@ fn replay_the_courses_keys() {
     assert_eq!(render.level_sampling, LevelSampling::Zero, "round");
     assert_eq!(render.sample_rate, SampleRate::ONE, "not below one");
     assert!(
-        session.viewer.both().title().starts_with("1.svg - sample rate 1,"),
+        session.viewer.both().title().starts_with("1.svg - sample rate 1 - "),
         "{}",
         session.viewer.both().title()
     );
@@ -369,9 +369,9 @@ fn replay_copies() {
     assert!(line.ends_with(options), "{line}");
     assert!(line.contains("--sample-rate 4 --shading-rate centre --pixel"), "{line}");
     let title = session.viewer.both().title();
-    assert!(title.contains("sample rate 4, shading rate centre, "), "{title}");
+    // There is no texture that the others would change.
     assert!(
-        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample, level by area, pyramid linear, pyramid filter tent - "),
+        title.contains(" - sample rate 4, shading rate centre, rules course - "),
         "{title}"
     );
     session.keys(&[".", ".", "."]);
@@ -398,7 +398,7 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
             .viewer
             .both()
             .title()
-            .contains("sample rate 4, pattern jittered, pixel"),
+            .contains("sample rate 4, pattern jittered - "),
         "{}",
         session.viewer.both().title()
     );

@@ -468,6 +468,9 @@ fn a_window_that_was_small_for_a_while_gives_back_the_view() {
 #[test]
 fn words_over_the_picture_are_about_what_it_shows() {
     let mut session = session(Vec::new(), [1920, 1080]);
+    for (name, value) in [("resolve-filter", "mitchell"), ("rules", "course")] {
+        session.command(Command::set(name, value).expect("a value"));
+    }
     right_click(&mut session, [700.0, 500.0]);
     session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.wait(Duration::from_secs(10));

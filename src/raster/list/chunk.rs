@@ -180,8 +180,8 @@ impl Chunk {
 
 /// Tells every layer which pixels it touches, so that tiles beside it need not open it.
 ///
-/// What is clipped or masked counts where the clip path or mask holds anything, which documents with thousands of small clip paths
-/// around large shapes live on.
+/// Where nothing is shaded, what is clipped or masked counts where the clip path or mask holds anything, which documents with thousands
+/// of small clip paths around large shapes live on.
 ///
 /// Layers may span chunks, so this looks at all of them in order; without layers it does nothing.
 pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
@@ -198,7 +198,9 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
             end: context.size[1].cast_signed(),
         },
     };
-    let keeps_hidden = chunks.iter().any(|chunk| chunk.keeps_hidden);
+    // A tile with layers may round shaded samples otherwise than one without.
+    let is_shaded = |chunk: &Chunk| chunk.paints.iter().any(|paint| paint.constant.is_none());
+    let keeps_clipped = chunks.iter().any(|chunk| chunk.keeps_hidden || is_shaded(chunk));
     let mut open: Vec<(usize, usize, SpanRect)> = Vec::new();
     let mut open_before = Vec::with_capacity(chunks.len());
     for at in 0..chunks.len() {
@@ -224,7 +226,7 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
                     if let Some((outer_chunk, outer_begin, outer)) = open.last_mut() {
                         if keeps_below {
                             *outer = outer.union(area);
-                        } else if !keeps_hidden {
+                        } else if !keeps_clipped {
                             let left = outer.intersection(held);
                             *outer = if left.is_empty() { SpanRect::EMPTY } else { left };
                             chunks[*outer_chunk].layers[*outer_begin].limits = true;

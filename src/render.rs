@@ -51,7 +51,7 @@ pub struct RenderSettings {
     /// How often primitives are shaded in a pixel.
     pub shading: ShadingRate,
     /// What tells how much of a pixel a primitive covers: samples, or its exact area, with which rate, pattern and shading rate are
-    /// without effect. Pictures of something else than colours always have samples.
+    /// without effect. Pictures of something else than colours have samples, but for that of what was clamped.
     pub coverage: PixelCoverage,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
@@ -70,7 +70,7 @@ pub struct RenderSettings {
     /// Whose conventions.
     pub rules: Rules,
     /// What samples weigh in a pixel: its own, and its neighbours'. Pictures of something else than colours are means of a
-    /// pixel's own samples, and so are the tiles of patterns, whose texels are samples yet.
+    /// pixel's own samples, but for that of what was clamped, and so are the tiles of patterns, whose texels are samples yet.
     pub resolve_filter: ResolveFilter,
     /// How far that filter reaches, where not as far as it does by itself.
     pub filter_radius: Option<FilterRadius>,

@@ -4,6 +4,7 @@ use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::bilinear::mass;
+use super::bilinear_values::BilinearList;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
 use super::nearest_values::ValueList;
 use super::pixel_filter::PixelWork;
@@ -14,7 +15,7 @@ use super::{
     anisotropic_filter, block_filter, fixed_point, nearest_light, nearest_scattered, nearest_values, pixel_filter,
     sample_filter,
 };
-use crate::color::{LightResolver, Premultiplied16};
+use crate::color::{LightResolver, NearLight, Premultiplied16};
 use crate::simd::Level;
 
 /// Coefficients beyond this are no triangle's: with them, sums of products could become infinite or no number.
@@ -143,10 +144,10 @@ impl<'a> Filter<'a> {
     /// For each of the pixels what red, green and blue of the texels of its samples count, or of those that take part, where each of
     /// these reads the nearest texel of one level; whether that is so. Sums over `list.pixels[i]` are written to `sums[i]`.
     pub fn value_sums(&self, simd: Level, grid: SampleGrid, list: ValueList<'_>, sums: &mut [[u64; 3]]) -> bool {
-        if self.pixel != PixelSampling::Nearest {
-            return false;
-        }
         let plan = self.plan(grid);
+        if self.pixel != PixelSampling::Nearest {
+            return BilinearList::new(&plan, grid.side, list).is_some_and(|list| list.sums(simd, sums));
+        }
         if list.inside.len() == list.count {
             nearest_values::sum(simd, &plan, grid.side, list, sums)
         } else {
@@ -163,9 +164,12 @@ impl<'a> Filter<'a> {
         (list, resolver): (ValueList<'_>, &LightResolver),
         pixels: &mut [u32],
     ) -> bool {
-        self.pixel == PixelSampling::Nearest
-            && list.inside.len() == list.count
-            && nearest_light::pixels(simd, (&self.plan(grid), grid.side), (list, resolver), pixels)
+        let plan = self.plan(grid);
+        if self.pixel != PixelSampling::Nearest {
+            let list = BilinearList::new(&plan, grid.side, list);
+            return list.is_some_and(|list| list.light_pixels(simd, &NearLight::new(resolver), pixels));
+        }
+        list.inside.len() == list.count && nearest_light::pixels(simd, (&plan, grid.side), (list, resolver), pixels)
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {

@@ -17,20 +17,37 @@ pub(super) const APART: f32 = 16.0;
 /// Height of what is always to be seen of a card's contents, in points.
 const LEAST_HEIGHT: f32 = 40.0;
 
-/// What is below a card's title, `needed` points high: with a bar beside it where it is higher than there is `room` for, so that
+/// Where a card may lie that is at least so wide: in what is `free` of the `window`, or where that is too narrow, over the panels
+/// beside it as far as the card needs. A part behind a panel would be out of reach; who wants the panel closes the card.
+pub(super) fn wide_enough(free: Rect, width: f32, window: Rect) -> Rect {
+    let width = width.min(window.width());
+    if free.width() >= width {
+        return free;
+    }
+    let left = (free.center().x - width / 2.0).clamp(window.left(), window.right() - width);
+    Rect::from_x_y_ranges(left..=left + width, free.y_range())
+}
+
+/// What is below a card's title, `needed` points wide and high: with bars where that is more than there is `room` for, so that
 /// the title, which closes the card, stays in the window.
-pub(super) fn below_title(ui: &mut Ui, [needed, room]: [f32; 2], contents: impl FnOnce(&mut Ui)) {
-    if needed <= room {
+pub(super) fn below_title(ui: &mut Ui, [needed, room]: [Vec2; 2], contents: impl FnOnce(&mut Ui)) {
+    let lacks = [needed.x > room.x, needed.y > room.y];
+    if lacks == [false; 2] {
         return contents(ui);
     }
     look::bars_beside(ui);
-    let height = room.max(LEAST_HEIGHT);
+    let height = room.y.max(LEAST_HEIGHT);
     // As high as it may be from the first pass on: the card would keep the height of what it said before.
-    ScrollArea::vertical()
+    ScrollArea::new(lacks)
         .id_salt("below the title")
         .max_height(height)
         .min_scrolled_height(height)
-        .show(ui, contents);
+        .show(ui, |ui| {
+            if lacks[0] {
+                ui.set_width(needed.x);
+            }
+            contents(ui);
+        });
 }
 
 /// Where a card is.
@@ -91,6 +108,25 @@ mod tests {
         assert!((0..4).any(|_| !asks(80.0)), "as it was");
         assert!(asks(200.0), "it grew");
         assert!((0..4).any(|_| !asks(200.0)), "and rests");
+    }
+
+    #[test]
+    fn card_that_has_no_room_beside_panels_lies_over_them() {
+        let rect = |left, right| Rect::from_min_max(pos2(left, 10.0), pos2(right, 300.0));
+        let window = rect(0.0, 700.0);
+        for (free, wanted) in [
+            (rect(264.0, 600.0), rect(264.0, 600.0)),
+            (rect(264.0, 436.0), rect(200.0, 500.0)),
+            (rect(0.0, 156.0), rect(0.0, 300.0)),
+            (rect(564.0, 700.0), rect(400.0, 700.0)),
+        ] {
+            assert_eq!(wide_enough(free, 300.0, window), wanted, "{free:?}");
+        }
+        assert_eq!(
+            wide_enough(rect(0.0, 156.0), 900.0, window),
+            window,
+            "no wider than the window"
+        );
     }
 
     #[test]

@@ -14,7 +14,7 @@
 use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::controls::{choice, tip};
-use super::corner::{APART, CardCorner, below_title};
+use super::corner::{APART, CardCorner, below_title, wide_enough};
 use super::floating::things;
 use super::focus::FocusPanel;
 use super::look::CONTROL;
@@ -30,6 +30,8 @@ const WIDTHS: [f32; 2] = [236.0, 340.0];
 const HEIGHTS: [f32; 2] = [64.0, 140.0];
 /// What frame, title, values and the line below the plot take of the height, in points.
 const BESIDES: f32 = 116.0;
+/// Width of the card around its contents, in points.
+const FRAME: f32 = 14.0;
 /// Height of the title with what is around the card's contents, in points.
 const HEAD: f32 = 46.0;
 /// Height of a row of numbers, in points, and with the space below it.
@@ -93,15 +95,16 @@ impl ProfileCard {
             return Shown::default();
         }
         let curves = viewer.profile().curves();
+        let free = wide_enough(free, WIDTHS[0] + FRAME + 2.0 * MARGIN, ui.ctx().content_rect());
         let room = free.shrink(MARGIN);
         let width = (free.width() * 0.4).clamp(WIDTHS[0], WIDTHS[1]);
         let height = (free.height() * 0.24).clamp(HEIGHTS[0], HEIGHTS[1]);
         let rows = (1 + curves.len()) as f32 * ROW;
         let hint = hint(&curves);
         let size = if hint.is_some() {
-            vec2(width + 14.0, 64.0)
+            vec2(width + FRAME, 64.0)
         } else {
-            vec2(width + 14.0, height + rows + BESIDES)
+            vec2(width + FRAME, height + rows + BESIDES)
         };
         let corner = self.choose(ui, viewer, room, size);
         let mut pixel = None;
@@ -115,13 +118,14 @@ impl ProfileCard {
             .show(ui.ctx(), |ui| {
                 FocusPanel::Profile.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
-                    ui.set_width(width);
+                    let sizes = [size, room.size()].map(|size| size - vec2(FRAME, HEAD));
+                    ui.set_width(sizes[0].x.min(sizes[1].x));
                     head(ui, commands);
                     if let Some(hint) = hint {
                         ui.label(RichText::new(hint).small().weak());
                         return;
                     }
-                    below_title(ui, [size.y, room.height()].map(|height| height - HEAD), |ui| {
+                    below_title(ui, sizes, |ui| {
                         channels(ui, viewer.profile().channel(), commands);
                         pixel = profile_plot::show(ui, viewer, &curves, vec2(width, height));
                         numbers(ui, &curves, viewer.profile().channel());

@@ -15,7 +15,7 @@
 use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichText, Sense, Ui, vec2};
 
 use super::controls::{choice, choice_where, tip};
-use super::corner::{CardCorner, below_title};
+use super::corner::{CardCorner, below_title, wide_enough};
 use super::floating::things;
 use super::focus::FocusPanel;
 use super::look::CONTROL;
@@ -63,10 +63,12 @@ impl SpectrumCard {
             *self = Self::default();
             return Shown::default();
         }
+        let size_of = |side: f32| vec2(side.max(LEAST) + FRAME, side + BESIDES);
+        let least = size_of(SIDES[3]).x + 2.0 * MARGIN;
+        let free = wide_enough(free, least, ui.ctx().content_rect());
         let room = free.shrink(MARGIN);
         let things = things(viewer, ui.pixels_per_point());
         let in_way = |place: Rect| things.iter().filter(|other| other.intersects(place)).count();
-        let size_of = |side: f32| vec2(side.max(LEAST) + FRAME, side + BESIDES);
         let fits = |side: &f32| room.size().min_elem() > 0.0 && CardCorner::has_room(size_of(*side), room, in_way);
         let side = SIDES.into_iter().find(fits).unwrap_or(SIDES[3]);
         let corner = self.corner.choose(size_of(side), room, in_way);
@@ -81,10 +83,10 @@ impl SpectrumCard {
             .show(ui.ctx(), |ui| {
                 FocusPanel::Spectrum.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
-                    ui.set_width(side.max(LEAST));
+                    let sizes = [size_of(side), room.size()].map(|size| size - vec2(FRAME, HEAD));
+                    ui.set_width(sizes[0].x.min(sizes[1].x));
                     head(ui, viewer, commands);
-                    let heights = [size_of(side).y, room.height()].map(|height| height - HEAD);
-                    below_title(ui, heights, |ui| {
+                    below_title(ui, sizes, |ui| {
                         choices(ui, viewer, commands);
                         let found = spectrum.found().filter(|found| found.analysis.of() == spectrum.of());
                         match found {
@@ -125,14 +127,16 @@ fn hint(viewer: &Viewer) -> &'static str {
 /// The title, and what closes the card.
 fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        ui.label(RichText::new(title(viewer)).strong())
-            .on_hover_text(tip("spectrum"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = ui.add(Button::new("\u{d7}").min_size(CONTROL));
             let close = close.on_hover_text("Closes the spectrum. Nothing is drawn for it any more.");
             if close.accessible_name("Close the spectrum").clicked() {
                 commands.push(Command::Spectrum(SpectrumCommand::Show(Toggle::Off)));
             }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let title = egui::Label::new(RichText::new(title(viewer)).strong()).truncate();
+                ui.add(title).on_hover_text(tip("spectrum"));
+            });
         });
     });
 }

@@ -3,11 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use egui::accesskit::Node;
+use glam::dvec2;
 
-use super::hands::{key, nodes, place_of, session};
+use super::hands::{click, click_on, key, nodes, place_of, session};
 use super::*;
+use crate::compare::{ProfileChannel, SpectrumOf};
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Axis, BoardCommand, Dialog, ProfileCommand, SpectrumCommand, Toggle, WindowCommand};
+use crate::viewer::{
+    AbCommand, Against, Axis, BoardCommand, Dialog, ProfileCommand, SpectrumCommand, Toggle, WindowCommand,
+};
 
 fn rings() -> Vec<PathBuf> {
     vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/01_zone_plate.svg")]
@@ -38,6 +42,42 @@ fn cards_keep_their_titles_in_the_window() {
                 "{close} in {window:?}: {top}"
             );
         }
+    }
+}
+
+/// A click near the left end of the control with this name.
+fn click_at_left_end(session: &mut Session, name: &str) {
+    let nodes = nodes(session);
+    let node = nodes.iter().find(|node| node.label() == Some(name));
+    let bounds = node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {name}"));
+    click(session, dvec2(bounds.x0 + 3.0, f64::midpoint(bounds.y0, bounds.y1)));
+    session.settle();
+}
+
+#[test]
+fn cards_beside_panels_stay_within_reach() {
+    for window in [[700, 1200], [520, 420], [420, 300], [320, 240]] {
+        let mut session = session(rings(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+        session.command(Command::Spectrum(SpectrumCommand::Show(Toggle::On)));
+        session.settle();
+        session.settle();
+        for of in SpectrumOf::ALL.into_iter().rev() {
+            click_at_left_end(&mut session, &format!("Spectrum of: {}", of.name()));
+            assert_eq!(session.viewer.spectrum().of(), of, "in {window:?}");
+        }
+        click_on(&mut session, "Close the spectrum");
+        assert!(!session.viewer.spectrum().is_open(), "closed in {window:?}");
+        session.command(Command::Profile(ProfileCommand::SetLine([[20, 20], [90, 60]])));
+        session.settle();
+        session.settle();
+        for channel in ProfileChannel::ALL.into_iter().rev() {
+            click_at_left_end(&mut session, &format!("Profile of: {}", channel.name()));
+            assert_eq!(session.viewer.profile().channel(), channel, "in {window:?}");
+        }
+        click_on(&mut session, "Close the edge profile");
+        assert!(!session.viewer.profile().is_open(), "closed in {window:?}");
     }
 }
 

@@ -148,6 +148,12 @@ impl Chrome {
         self.dialog.take().is_some() || std::mem::take(&mut self.start_card) || std::mem::take(&mut self.hidden)
     }
 
+    /// Something else than Esc was asked for, or Esc closed something: the question whether to end is answered.
+    pub(in crate::viewer) fn forget_ending(&mut self) {
+        self.ending.forget();
+        self.messages.retract(ending::QUESTION);
+    }
+
     /// The part of the window that no panel covers.
     pub(in crate::viewer) fn free_window(&self) -> PixelRect {
         let window = PixelRect::of_size(self.window);

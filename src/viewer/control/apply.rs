@@ -40,7 +40,7 @@ impl Viewer {
             return Vec::new();
         }
         if !is_passing(&command) {
-            self.chrome.ending.forget();
+            self.chrome.forget_ending();
             self.chrome.start_card &= comes_from_outside(&command);
         }
         let effects = self.dispatch(command);
@@ -131,6 +131,7 @@ impl Viewer {
                 if magnifier.pin.is_some() {
                     magnifier.reveal = Some(Reveal::Resized);
                 }
+                self.hand().rest_in_another_window();
             }
             WindowCommand::SetFreeArea(area) => {
                 self.hand().set_free_area(area);
@@ -172,7 +173,7 @@ impl Viewer {
     /// Closes or unpins what is open, the latest first; when nothing is, asks once and then ends the program.
     fn escape(&mut self) -> Vec<Effect> {
         if self.opening().close_latest() {
-            self.chrome.ending.forget();
+            self.chrome.forget_ending();
             return Vec::new();
         }
         if self.chrome.ending.escape(Instant::now()) {

@@ -212,7 +212,20 @@ impl Hand<'_> {
             self.keep_view_of_pin(&before, &now);
         }
         if let Some(views) = self.inspector.magnifier.kept_view.take_if(|_| !asks) {
-            self.scene_list.look_back(self.layout().frame_size(), views);
+            self.scene_list.look_back(&self.layout(), views);
+        }
+    }
+
+    /// The window has another size. A view that no hand has moved rests while a hand asks about a pixel, and fits the window that
+    /// there is then as soon as the explanation is closed.
+    pub(in crate::viewer) fn rest_in_another_window(&mut self) {
+        let asks = self.inspector.magnifier.asked && self.pixels().has_explanation_open();
+        let Some(camera) = self.scene_list.camera().filter(|camera| asks && camera.is_untouched()) else {
+            return;
+        };
+        let kept = &mut self.inspector.magnifier.kept_view;
+        if kept.is_none_or(|[_, set]| set != camera) {
+            *kept = Some([camera; 2]);
         }
     }
 

@@ -157,7 +157,7 @@ impl Pointing<'_> {
             .inspector
             .magnifier
             .kept_view
-            .is_some_and(|[_, set]| Some(set) == camera);
+            .is_some_and(|[first, set]| first != set && Some(set) == camera);
         let has_slid = has_slid || (both.layout.fixed_size().is_some() && both.ab.moved.has_slid());
         has_slid && asked.at == window_pixel(at)
     }

@@ -397,6 +397,7 @@ fn escape_asks_anew_after_anything_else() {
     assert!(says(&mut session, "Esc again ends the program"), "asked");
     key(&mut session, "?");
     session.settle();
+    assert!(!says(&mut session, "Esc again ends the program"), "another answer");
     click(&mut session, dvec2(3.0, 3.0));
     assert_eq!(
         session.viewer.chrome().dialog(),
@@ -430,6 +431,35 @@ fn reset_shows_the_canvas_beside_the_panel() {
             "{window:?}: {left} to {right} in {free:?}"
         );
     }
+}
+
+#[test]
+fn fitted_view_fits_the_window_that_there_is_after_an_explanation() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    session.command(Command::View(ViewCommand::Reset));
+    session.settle();
+    let fitted = session.viewer.both().view_numbers().expect("a scene");
+    session.resize([700, 1000]);
+    session.settle();
+    right_click(&mut session, [300.0, 500.0]);
+    let asked = session.viewer.both().view_numbers().expect("a scene");
+    session.resize([1280, 800]);
+    session.settle();
+    let rests = session.viewer.both().view_numbers().expect("a scene");
+    assert!(
+        session.viewer.pixels().explains() && (rests.scale / asked.scale - 1.0).abs() < 1e-9,
+        "the pixel stays what it is: {rests:?}, not {asked:?}"
+    );
+    key(&mut session, "e");
+    session.settle();
+    assert!(session.viewer.pixels().pinned().is_some(), "still pinned");
+    let after = session.viewer.both().view_numbers().expect("a scene");
+    assert!(
+        (after.scale / fitted.scale - 1.0).abs() < 1e-9 && after.center.distance(fitted.center) < 1e-6,
+        "{after:?}, not {fitted:?}"
+    );
 }
 
 #[test]

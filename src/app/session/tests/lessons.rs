@@ -190,6 +190,31 @@ fn needles_that_the_first_steps_speak_of_are_hit_in_every_window() {
 }
 
 #[test]
+fn pictures_of_the_last_steps_are_free_to_be_compared() {
+    for window in [[800, 600], [1280, 800], [1920, 1080]] {
+        for step in [8, 9] {
+            let session = at_step(step, window);
+            let viewer = &session.viewer;
+            let layout = viewer.both().layout();
+            let [low, high] = viewer.scene_list().canvas_in_frame(&layout).expect("a picture");
+            let inspector = viewer.inspector();
+            for placed in inspector.inset().into_iter().chain(inspector.other_inset()) {
+                let beside = [
+                    placed.rect.x as f64 >= high.x,
+                    placed.rect.y as f64 >= high.y,
+                    placed.rect.right() as f64 <= low.x,
+                    placed.rect.bottom() as f64 <= low.y,
+                ];
+                assert!(
+                    beside.contains(&true),
+                    "{placed:?} over the picture of step {step} in {window:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn lessons_show_pixels_of_their_own_size_and_no_old_messages() {
     for window in [[800, 600], [1280, 800]] {
         let mut session = session(Vec::new(), window);

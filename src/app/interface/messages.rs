@@ -62,6 +62,7 @@ impl Messages {
         commands: &mut Vec<Command>,
     ) -> Vec<Rect> {
         let free = taken.free;
+        let window = ui.ctx().content_rect();
         let now = ui.input(|input| input.time);
         self.shown
             .retain(|id, _| viewer.chrome().messages().iter().any(|message| message.id == *id));
@@ -85,11 +86,15 @@ impl Messages {
                     let pointer = pointer.map(|at| Rect::from_center_size(at, Vec2::splat(POINTER)));
                     let things: Vec<Rect> = things.iter().copied().chain(pointer).collect();
                     let all = [&things, taken.words].concat();
-                    place(free, &all, size).or_else(|| place(free, &things, size))
+                    let beside = [(&all, free), (&things, free)];
+                    // Where that has no room: over the picture's things, or over panels, but never over each other.
+                    let over = [free, window].map(|room| (&covered, room));
+                    let mut rooms = beside.into_iter().chain(over).filter(|(_, room)| is_wide(*room));
+                    rooms.find_map(|(taken, room)| place(room, taken, size))
                 })
                 .unwrap_or_else(|| {
-                    let width = WIDTHS[0].min(free.width() - 2.0 * MARGIN);
-                    above(free, &covered, size(ui, viewer, message, width.max(WIDTHS[4])))
+                    let width = WIDTHS[0].min(window.width() - 2.0 * MARGIN);
+                    above(window, &covered, size(ui, viewer, message, width))
                 });
             let end = before.map_or(now + seconds, |shown| shown.end);
             self.shown.insert(message.id, Shown { end, place, free });
@@ -169,11 +174,17 @@ fn place(free: Rect, taken: &[Rect], size: impl Fn(f32) -> Vec2) -> Option<Rect>
     })
 }
 
-/// The place above other messages at the foot of the picture, whatever is there.
-fn above(free: Rect, messages: &[Rect], size: Vec2) -> Rect {
+/// Whether a message has room in this width.
+fn is_wide(room: Rect) -> bool {
+    room.width() >= WIDTHS[4] + 2.0 * MARGIN
+}
+
+/// The place above other messages at the foot of the window, whatever is there, but not above its upper edge.
+fn above(window: Rect, messages: &[Rect], size: Vec2) -> Rect {
     let foot = messages.iter().map(|other| other.top() - GAP);
-    let bottom = foot.fold(free.bottom() - MARGIN, f32::min);
-    Align2::LEFT_BOTTOM.anchor_size(egui::pos2(free.left() + MARGIN, bottom), size)
+    let bottom = foot.fold(window.bottom() - MARGIN, f32::min);
+    let bottom = bottom.max(window.top() + MARGIN + size.y);
+    Align2::LEFT_BOTTOM.anchor_size(egui::pos2(window.left() + MARGIN, bottom), size)
 }
 
 fn toast(ui: &Ui, message: &Message, place: Rect, offers_folder: bool) -> (Rect, Option<Clicked>) {
@@ -241,5 +252,13 @@ mod tests {
             );
         }
         assert_eq!(found(&[free]), None, "no room");
+    }
+
+    #[test]
+    fn messages_begin_in_the_window() {
+        let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(300.0, 100.0));
+        let below = Rect::from_min_max(pos2(10.0, 40.0), pos2(290.0, 90.0));
+        let place = above(window, &[below], vec2(200.0, 60.0));
+        assert!(window.contains_rect(place), "{place:?}");
     }
 }

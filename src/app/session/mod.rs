@@ -268,6 +268,7 @@ impl Session {
         }
         self.fold_panel();
         self.share_room(Wanted::Explanation);
+        self.take_back_missing_room();
     }
 
     /// At how many percent the desktop shows the window, where it scales that by itself.
@@ -291,6 +292,7 @@ impl Session {
             self.fold_panel();
         }
         self.share_room(wanted);
+        self.take_back_missing_room();
         self.tell_missing_room(asks, wanted);
     }
 

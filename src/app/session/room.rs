@@ -166,6 +166,31 @@ impl Session {
         largest.max(self.native_scale)
     }
 
+    /// Takes back what was said about missing room for something that has room now, or is no longer wanted.
+    pub(super) fn take_back_missing_room(&mut self) {
+        if self.viewer.chrome().messages().is_empty() {
+            return;
+        }
+        let (viewer, interface) = (&self.viewer, &self.interface);
+        let width = viewer.chrome().window_size()[0] as f32 / self.scale();
+        let explains = viewer.pixels().has_explanation_open();
+        let compares = viewer.ab().other().is_some() && viewer.ab().arrangement() == Arrangement::Difference;
+        let is_settled = [
+            (
+                NO_LESSON,
+                viewer.lesson().is_none() || interface.has_room_for_lesson(viewer, width),
+            ),
+            (NO_NUMBERS, !compares || interface.has_room_to_compare(viewer, width)),
+            (NO_ROOM, !explains || interface.has_room_to_explain(viewer, width)),
+        ];
+        for (words, _) in is_settled.into_iter().filter(|(_, is_settled)| *is_settled) {
+            let is_told = |message: &crate::viewer::Message| message.text == words;
+            if self.viewer.chrome().messages().iter().any(is_told) {
+                self.viewer.retract(words);
+            }
+        }
+    }
+
     /// Tells whoever asked for something that there is no room for it.
     pub(super) fn tell_missing_room(&mut self, asks: Asks, wanted: Wanted) {
         match asks {

@@ -225,6 +225,9 @@ fn lesson_without_room_is_told() {
             .any(|message| message.text.contains("text of the lesson"))
     };
     assert!(told(&session), "there is no room for it");
+    session.resize([1280, 800]);
+    session.settle();
+    assert!(!told(&session), "by now there is");
     let mut wide = hands::session(Vec::new(), [1280, 800]);
     wide.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
     wide.settle();

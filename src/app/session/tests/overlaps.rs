@@ -12,9 +12,12 @@ use super::*;
 use crate::viewer::picture::SettingChange;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{
-    AbCommand, Arrangement, Dialog, ExportCommand, InspectorCommand, InterfaceScale, MessageKind, NO_ROOM, Toggle,
-    ViewCommand, WindowCommand,
+    AbCommand, Arrangement, Dialog, ExportCommand, InspectorCommand, InterfaceScale, LessonCommand, LessonSource,
+    MessageKind, Toggle, ViewCommand, WindowCommand,
 };
+
+/// A message that takes more than one line in a small window, and that nothing takes back.
+const LONG: &str = "a message that is as long as the longest of those that are told: be it seen";
 
 /// Everything over the picture, by name.
 fn things(session: &Session) -> Vec<(&'static str, Rect)> {
@@ -100,7 +103,7 @@ fn nothing_lies_over_the_ring_of_a_pin_beside_panels() {
 fn messages_lie_beside_magnifiers_words_and_legends() {
     for step in 0..10 {
         let mut session = at_step(step, [800, 600]);
-        session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+        session.viewer.tell(MessageKind::Done, LONG.to_owned());
         session.command(Command::Export(ExportCommand::CopyPixel));
         session.quiet_turn();
         session.quiet_turn();
@@ -109,6 +112,28 @@ fn messages_lie_beside_magnifiers_words_and_legends() {
         let before = session.interface.told().to_vec();
         session.quiet_turn();
         assert_eq!(session.interface.told(), before, "and they stay there");
+    }
+}
+
+#[test]
+fn messages_in_a_small_window_lie_in_it_and_beside_each_other() {
+    for window in [[420, 300], [330, 260]] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
+        session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
+        session.viewer.tell(MessageKind::Done, LONG.to_owned());
+        session.settle();
+        session.quiet_turn();
+        let told = session.interface.told();
+        assert!(told.len() >= 2, "messages in {window:?}");
+        let all = Rect::from_min_size(pos2(0.0, 0.0), vec2(window[0] as f32, window[1] as f32));
+        for (index, message) in told.iter().enumerate() {
+            assert!(all.contains_rect(*message), "{message:?} in {window:?}");
+            for other in &told[..index] {
+                assert!(!message.shrink(0.5).intersects(*other), "{message:?} over {other:?}");
+            }
+        }
     }
 }
 
@@ -188,7 +213,7 @@ fn way_back_lies_in_what_is_free_and_beside_all_words() {
             session.command(Command::Window(WindowCommand::SetInterfaceScale(scale)));
             session.command(Command::View(ViewCommand::PanBy { by: dvec2(9e4, 0.0) }));
             session.command(Command::Set(SettingChange::of("rules", "float").expect("a setting")));
-            session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+            session.viewer.tell(MessageKind::Done, LONG.to_owned());
             session.settle();
             let area = free(&session);
             if area.width() < 190.0 || area.height() < 104.0 {
@@ -214,7 +239,7 @@ fn way_back_lies_in_what_is_free_and_beside_all_words() {
 fn messages_lie_beside_dialogs_where_there_is_room() {
     for window in [[800, 600], [1280, 800]] {
         let mut session = session(Vec::new(), window);
-        session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+        session.viewer.tell(MessageKind::Done, LONG.to_owned());
         session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel)));
         session.settle();
         session.quiet_turn();

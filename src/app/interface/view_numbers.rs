@@ -1,5 +1,7 @@
 //! The view in numbers that can be typed or dragged.
 
+use std::cell::Cell;
+
 use egui::text::CCursorRange;
 use egui::{Align, Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
@@ -112,7 +114,8 @@ fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {
 }
 
 impl Number<'_> {
-    /// Never wider than `width` points, whatever the value: digits give way.
+    /// Never wider than `width` points, whatever the value: digits give way. Where something was typed that is no number, the
+    /// value is none either.
     fn show(&self, ui: &mut Ui, width: f32, value: &mut f64) {
         let size = vec2(width, super::look::CONTROL.y);
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
@@ -129,13 +132,18 @@ impl Number<'_> {
                 galley.size().x <= room
             };
             let mut typed = before;
+            let is_none = Cell::new(false);
             let field = DragValue::new(&mut typed)
                 .speed(self.speed)
                 .max_decimals_opt(decimals)
                 .suffix(unit)
                 .clip_text(true)
                 .update_while_editing(false)
-                .custom_parser(finite)
+                .custom_parser(|text| {
+                    let number = finite(text);
+                    is_none.set(number.is_none());
+                    number
+                })
                 .custom_formatter(move |value, _| {
                     if typing {
                         all_digits(value)
@@ -145,7 +153,8 @@ impl Number<'_> {
                 });
             let response = ui.add(field);
             if !gave_up(ui, &response) {
-                *value = typed;
+                // What is no number sets nothing, and the viewer says what is possible.
+                *value = if is_none.get() { f64::NAN } else { typed };
             }
             if response.clicked() {
                 // The field chose the digits that it showed; the line of text begins with all of them.

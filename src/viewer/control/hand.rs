@@ -14,6 +14,7 @@ use crate::viewer::library::state::SceneList;
 use crate::viewer::profile::Profiling;
 use crate::viewer::settings::Settings;
 use crate::viewer::spectrum::SpectrumState;
+use crate::viewer::view::camera::Camera;
 use crate::viewer::view::layout::WindowLayout;
 use crate::viewer::view::pointer::{Pointer, PointerButton, WheelTarget, window_pixel};
 use crate::viewer::{PointerCommand, ViewCommand};
@@ -88,6 +89,13 @@ impl Hand<'_> {
 
     pub(in crate::viewer) fn apply_view(&mut self, command: ViewCommand) {
         let sets_zoom = matches!(command, ViewCommand::SetPixelZoom(_) | ViewCommand::NextPixelZoom);
+        if let ViewCommand::Set(numbers) = command {
+            let context = self.both().view_context();
+            let remark = context.and_then(|context| Camera::remark(numbers, &context));
+            if let Some(remark) = remark {
+                self.chrome.messages.done(remark);
+            }
+        }
         self.viewing().apply(command);
         // Another frame pixel lies under a pointer that rests.
         if sets_zoom && self.ab.fixed_size().is_none() {

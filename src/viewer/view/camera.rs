@@ -126,15 +126,39 @@ impl Camera {
         }
     }
 
+    /// What is to be said where the numbers of a view are not those that it takes: which are possible.
+    pub(in crate::viewer) fn remark(numbers: ViewNumbers, context: &ViewContext) -> Option<String> {
+        let ViewNumbers {
+            center,
+            scale,
+            rotation,
+        } = numbers;
+        let [lowest, highest] = scales(context);
+        let farthest = REACH / scale.clamp(lowest, highest);
+        if !(lowest..=highest).contains(&scale) {
+            let [lowest, highest] = [lowest, highest].map(few_digits);
+            Some(format!(
+                "the scale of the view: from {lowest} to {highest} pixels per unit are possible"
+            ))
+        } else if !rotation.is_finite() {
+            Some("the rotation of the view: any number of degrees is possible".to_owned())
+        } else if !center.is_finite() || center.abs().max_element() > farthest {
+            let farthest = few_digits(farthest);
+            Some(format!(
+                "the centre of the view: at this scale up to {farthest} units from 0 are possible"
+            ))
+        } else {
+            None
+        }
+    }
+
     /// The view with these numbers, brought into the range where pixels can be told apart.
     pub fn set(&mut self, numbers: ViewNumbers, context: &ViewContext) {
         let all = [numbers.center.x, numbers.center.y, numbers.scale, numbers.rotation];
         if !all.into_iter().all(f64::is_finite) || numbers.scale <= 0.0 {
             return;
         }
-        let extent = context.canvas.max_element();
-        let lowest = SMALLEST_CANVAS / extent;
-        let highest = REACH / extent;
+        let [lowest, highest] = scales(context);
         let scale = numbers.scale.clamp(lowest, highest);
         let limit = DVec2::splat(REACH / scale);
         self.is_fitted = false;
@@ -268,6 +292,16 @@ impl Camera {
             self.set(ViewNumbers { scale, ..numbers }, context);
         }
     }
+}
+
+/// The least and the largest scale of a view, in pixels per canvas unit.
+fn scales(context: &ViewContext) -> [f64; 2] {
+    [SMALLEST_CANVAS, REACH].map(|side| side / context.canvas.max_element())
+}
+
+/// A number of any size for people.
+fn few_digits(number: f64) -> String {
+    format!("{number:.1e}")
 }
 
 /// A screen-space vector turned back by a view's rotation.

@@ -8,7 +8,9 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, Dialog, InspectorCommand, KeyPress, Toggle, ViewerOptions, WindowCommand};
+use crate::viewer::{
+    AbCommand, Against, Dialog, InspectorCommand, KeyPress, Toggle, ViewCommand, ViewerOptions, WindowCommand,
+};
 
 /// A session at rest on these files, or on the gallery.
 pub(super) fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
@@ -148,6 +150,37 @@ fn number_fields_take_finite_numbers_alone() {
         for text in ["nan", "-nan", "inf", "-inf", "1e999"] {
             type_number(&mut session, name, text, "Enter");
             assert_eq!(numbers(&session), before, "{text} as {name}");
+        }
+    }
+}
+
+#[test]
+fn number_fields_of_the_view_say_what_is_possible() {
+    let scale = "the scale of the view: from";
+    let mut session = with_numbers();
+    for (name, text, words) in [
+        ("Scale in pixels per unit", "abc", Some(scale)),
+        ("Scale in pixels per unit", "0", Some(scale)),
+        ("Scale in pixels per unit", "1e99", Some(scale)),
+        ("Scale in pixels per unit", "2.5", None),
+        ("Centre x", "1e15", Some("the centre of the view: at this scale up to")),
+        ("Centre x", " ", Some("the centre of the view")),
+        ("Centre x", "20", None),
+        (
+            "Rotation in degrees, clockwise",
+            "north",
+            Some("the rotation of the view"),
+        ),
+    ] {
+        session.command(Command::View(ViewCommand::Reset));
+        session.wait(Duration::from_secs(30));
+        session.settle();
+        type_number(&mut session, name, text, "Enter");
+        let messages = session.viewer().chrome().messages();
+        let told = messages.iter().any(|message| message.text.starts_with("the "));
+        assert_eq!(told, words.is_some(), "{text} as {name}: {messages:?}");
+        if let Some(words) = words {
+            assert!(says(&mut session, words), "{text} as {name}");
         }
     }
 }

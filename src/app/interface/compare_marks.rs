@@ -149,6 +149,18 @@ fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
     pieces
 }
 
+/// The words up to the first that does not fit in a line, and dots for the others: none is broken but behind a hyphen.
+fn whole_words(text: &str, fits: impl Fn(&str) -> bool) -> String {
+    let fits = |word: &&str| word.split_inclusive('-').all(&fits);
+    let words: Vec<&str> = text.split(' ').take_while(fits).collect();
+    let words = words.join(" ");
+    if words.len() == text.len() {
+        words
+    } else {
+        format!("{words} \u{2026}")
+    }
+}
+
 /// A tag over the picture in the window, in points.
 struct Words {
     tag: Tag,
@@ -163,7 +175,14 @@ impl Words {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
         let rows = (free.height() * MOST_HEIGHT / line) as usize;
         let whole = (tag.room >= Tag::LEAST_WORDS).then(|| {
-            let mut job = LayoutJob::simple(tag.text.clone(), font.clone(), Color32::WHITE, tag.room);
+            let width = |word: &str| {
+                let galley = ui
+                    .painter()
+                    .layout_no_wrap(word.to_owned(), font.clone(), Color32::WHITE);
+                galley.size().x
+            };
+            let text = whole_words(&tag.text, |word| width(word) <= tag.room);
+            let mut job = LayoutJob::simple(text, font.clone(), Color32::WHITE, tag.room);
             job.wrap.max_rows = rows.max(2);
             ui.painter().layout_job(job)
         });
@@ -234,6 +253,15 @@ mod tests {
         assert_eq!(pieces(150.0), expected, "between and below them");
         let all = [inset(0.0, 400.0)];
         assert!(free_pieces(free, 150.0, &all).is_empty(), "nothing is free");
+    }
+
+    #[test]
+    fn words_of_tags_are_whole() {
+        let shown = |text, longest| whole_words(text, |word| word.len() <= longest);
+        let text = "B: the truth, pattern hammersley";
+        assert_eq!(shown(text, 10), text, "all fit");
+        assert_eq!(shown(text, 9), "B: the truth, pattern \u{2026}", "no half of a word");
+        assert_eq!(shown("A: jittered-same", 9), "A: jittered-same", "hyphens part words");
     }
 
     #[test]

@@ -432,7 +432,7 @@ fn close_of_inset(ui: &Ui, place: Rect, commands: &mut Vec<Command>) {
         .show(ui.ctx(), |ui| ui.add_sized(place.size(), Button::new("\u{d7}")))
         .inner
         .on_hover_text("Closes the pixel inspector, and forgets the pinned pixel")
-        .accessible_name("Close the inspector");
+        .accessible_name("Close the pixel inspector");
     if button.clicked() {
         commands.push(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
     }

@@ -270,7 +270,7 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let chosen = choice(ui, "Pixel zoom", &tip("pixel-zoom"), settings.pixel_zoom, &values);
         commands.extend(chosen.map(ViewCommand::SetPixelZoom).map(Command::View));
     });
-    row(ui, "Moving", |ui| {
+    row(ui, "Progressive", |ui| {
         let mut on = settings.progressive;
         let response = ui.checkbox(&mut on, "coarse first, then fine");
         let response = response.on_hover_text(tip("progressive"));
@@ -331,6 +331,17 @@ mod tests {
                     "{contrast} to 1, {theme:?}, presenter look {presenter}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn rows_have_the_names_of_menus() {
+        for option in ["visualise", "lod-bias", "rules", "dialect", "anisotropy"] {
+            let setting = picture::all()
+                .find(|setting| setting.option == option)
+                .expect("a setting");
+            let row = setting.panel.as_ref().map(|panel| panel.label.to_owned());
+            assert_eq!(row, Some(super::super::menu::capitalized(setting.label)), "{option}");
         }
     }
 

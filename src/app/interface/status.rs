@@ -91,9 +91,9 @@ fn close_of_inspector(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>)
     if !viewer.inspector().magnifier().open || viewer.pixels().pinned().is_some() {
         return;
     }
-    let button = ui.add(egui::Button::new("Magnifier  \u{d7}").small());
+    let button = ui.add(egui::Button::new("Inspector  \u{d7}").small());
     let button = button.on_hover_text(tip("inspector"));
-    if button.accessible_name("Close the inspector").clicked() {
+    if button.accessible_name("Close the pixel inspector").clicked() {
         commands.push(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
     }
     ui.add_space(4.0);

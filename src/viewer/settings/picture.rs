@@ -265,7 +265,7 @@ mod tests {
             settings
         };
         let biased = after("level-sampling linear, lod-bias 0.5");
-        assert_eq!(changed_words(&biased, About::Textures, None), ["bias +0.5"]);
+        assert_eq!(changed_words(&biased, About::Textures, None), ["level bias +0.5"]);
         let zero = after("lod-bias 0.5");
         assert_eq!(
             changed_words(&zero, About::Textures, None),
@@ -273,8 +273,8 @@ mod tests {
             "only level zero is read"
         );
         let bias = known("lod-bias").expect("a setting");
-        assert_eq!(bias.candid_words(&zero), "bias +0.5 (no effect)", "asked for");
-        assert_eq!(bias.candid_words(&biased), "bias +0.5", "it has one");
+        assert_eq!(bias.candid_words(&zero), "level bias +0.5 (no effect)", "asked for");
+        assert_eq!(bias.candid_words(&biased), "level bias +0.5", "it has one");
         let exact = after("coverage exact, sample-rate 4, pattern sobol");
         assert_eq!(
             told_words(&exact, About::Samples, None),

@@ -36,7 +36,7 @@ pub struct PictureSetting {
     pub panel: Option<PanelRow>,
     /// Its lines in the table of commands.
     pub commands: &'static [SettingCommand],
-    /// Whether the value takes a sign in words: `bias +1`.
+    /// Whether the value takes a sign in words: `level bias +1`.
     pub signed: bool,
     /// Whether steps go round and round instead of ending at the first and the last value.
     pub goes_round: bool,
@@ -242,7 +242,7 @@ impl PictureSetting {
             .or_else(|| (self.idle)(&settings.render))
     }
 
-    /// Such as `sample rate 16` or `bias +1`.
+    /// Such as `sample rate 16` or `level bias +1`.
     pub fn words(&self, settings: &Settings) -> String {
         format!("{} {}", self.label, self.shown(settings))
     }

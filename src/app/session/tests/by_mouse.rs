@@ -94,12 +94,12 @@ fn magnifier_has_a_button_that_closes_it() {
     let inset = session.viewer.inspector().inset().expect("there is room").rect;
     session.pointer(Some(dvec2(inset.x as f64 + 20.0, inset.y as f64 + 20.0)));
     session.settle();
-    let button = place_of(&mut session, "Close the inspector");
+    let button = place_of(&mut session, "Close the pixel inspector");
     assert!(
         button.x < inset.x as f64 || button.x > inset.right() as f64,
         "{button} covers no pixel of {inset:?}"
     );
-    click_on(&mut session, "Close the inspector");
+    click_on(&mut session, "Close the pixel inspector");
     assert!(session.viewer.inspector().inset().is_none(), "closed");
 }
 

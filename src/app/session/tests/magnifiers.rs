@@ -140,7 +140,7 @@ fn magnifier_that_follows_the_pointer_has_a_button_that_closes_it() {
         session.pointer(Some(dvec2(300.0, 300.0)));
         session.settle();
         assert!(session.viewer.inspector().inset().is_some(), "open in {window:?}");
-        click_on(&mut session, "Close the inspector");
+        click_on(&mut session, "Close the pixel inspector");
         assert!(session.viewer.inspector().inset().is_none(), "closed in {window:?}");
     }
 }

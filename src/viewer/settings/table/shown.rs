@@ -14,7 +14,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
         help: "What the pixels show; all but colour come with a legend",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(PanelRow::new("Show", "Visualisation", Control::List)),
+        panel: Some(PanelRow::new("Visualise", "Visualisation", Control::List)),
         commands: &[
             SettingCommand {
                 step: Some(1.0),

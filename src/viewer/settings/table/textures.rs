@@ -109,7 +109,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
     },
     PictureSetting {
         option: "lod-bias",
-        label: "bias",
+        label: "level bias",
         placeholder: "B",
         help: "Levels added to a texture's level of detail: -16 to 16; below zero sharpens",
         values: Values::Open {

@@ -8,12 +8,14 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use crate::compare::Profile;
 use crate::geometry::View;
 use crate::inspect::Contributions;
+use crate::render::RenderSettings;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measured, Measuring};
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::ReadPicture;
 use crate::viewer::ab::requests::ComparisonContext;
 use crate::viewer::board::Board;
+use crate::viewer::board::entry::BoardEntry;
 use crate::viewer::board::measuring::{BoardMeasuring, BoardNews};
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::MessageKind;
@@ -94,6 +96,8 @@ pub struct Viewer {
     pub(in crate::viewer) sheet: SheetDesk,
     /// The lesson that is open.
     pub(in crate::viewer) lesson: Option<Walk>,
+    /// What a press took away last, until it is brought back.
+    pub(in crate::viewer) taken_away: Option<TakenAway>,
     pub(in crate::viewer) results: Receiver<Finished>,
     pub(in crate::viewer) revision: u64,
     pub(in crate::viewer) picture_revision: u64,
@@ -101,6 +105,15 @@ pub struct Viewer {
     pub(in crate::viewer) last_drawn: Option<DrawnState>,
     /// What [`Viewer::take_damage`] told last.
     pub(in crate::viewer) last_shown: Option<DrawnState>,
+}
+
+/// What a press took away last.
+#[derive(Clone, Debug)]
+pub(in crate::viewer) enum TakenAway {
+    /// The settings before the defaults.
+    Settings(RenderSettings),
+    /// The tiles of the board, as they were added.
+    Board(Vec<BoardEntry>),
 }
 
 /// What decides the window's pixels below the panels; a frame and probed samples by their numbers.
@@ -218,6 +231,7 @@ impl Viewer {
                 mailbox.of(|(question, drawn)| Finished::SheetDrawn(question, Box::new(drawn))),
             )?),
             lesson: None,
+            taken_away: None,
             results,
             revision: 0,
             picture_revision: 0,

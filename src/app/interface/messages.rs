@@ -70,7 +70,7 @@ impl Messages {
         for message in viewer.chrome().messages() {
             let seconds = match message.kind {
                 MessageKind::Done => DONE_SECONDS,
-                MessageKind::Saved => OFFER_SECONDS,
+                MessageKind::Saved | MessageKind::TakenAway => OFFER_SECONDS,
                 MessageKind::Error => ERROR_SECONDS,
                 MessageKind::Question => ASKS_FOR.as_secs_f64(),
             };
@@ -98,10 +98,10 @@ impl Messages {
                 });
             let end = before.map_or(now + seconds, |shown| shown.end);
             self.shown.insert(message.id, Shown { end, place, free });
-            let offers_folder = offers_folder(viewer, message);
-            let (rect, clicked) = toast(ui, message, place, offers_folder);
-            if clicked == Some(Clicked::Folder) {
-                commands.push(Command::Export(ExportCommand::OpenFolder));
+            let offer = offer(viewer, message);
+            let (rect, clicked) = toast(ui, message, place, offer.as_ref().map(|(name, _)| *name));
+            if clicked == Some(Clicked::Offer) {
+                commands.extend(offer.map(|(_, command)| command));
             }
             if now >= end || clicked.is_some() {
                 commands.push(Command::Window(WindowCommand::DismissMessage(message.id)));
@@ -121,7 +121,7 @@ fn size(ui: &Ui, viewer: &Viewer, message: &Message, width: f32) -> Vec2 {
     let text = message.text.clone();
     let galley = ui.painter().layout(text, font, Color32::WHITE, width - 2.0 * PADDING);
     let frame = 2.0 * (PADDING + ui.visuals().window_stroke.width);
-    let button = if offers_folder(viewer, message) {
+    let button = if offer(viewer, message).is_some() {
         ui.spacing().interact_size.y + ui.spacing().item_spacing.y
     } else {
         0.0
@@ -129,13 +129,17 @@ fn size(ui: &Ui, viewer: &Viewer, message: &Message, width: f32) -> Vec2 {
     galley.size().ceil() + Vec2::splat(frame) + vec2(0.0, button)
 }
 
-/// Whether a message offers to show the folder of what was saved: the last one that tells of that, so that there is no doubt
-/// which folder it is.
-fn offers_folder(viewer: &Viewer, message: &Message) -> bool {
+/// What the button of a message says and does, where it has one: the last that tells of such a thing, so that there is no doubt
+/// which folder it shows or what it brings back.
+fn offer(viewer: &Viewer, message: &Message) -> Option<(&'static str, Command)> {
+    let offer = match message.kind {
+        MessageKind::Saved => ("Open folder", Command::Export(ExportCommand::OpenFolder)),
+        MessageKind::TakenAway => ("Undo", Command::Window(WindowCommand::BringBack)),
+        MessageKind::Done | MessageKind::Error | MessageKind::Question => return None,
+    };
     let mut messages = viewer.chrome().messages().iter().rev();
-    messages
-        .find(|message| message.kind == MessageKind::Saved)
-        .is_some_and(|last| last.id == message.id)
+    let last = messages.find(|other| other.kind == message.kind);
+    last.is_some_and(|last| last.id == message.id).then_some(offer)
 }
 
 /// What was clicked of a message.
@@ -144,7 +148,7 @@ enum Clicked {
     /// Itself, to close it.
     Message,
     /// Its button.
-    Folder,
+    Offer,
 }
 
 /// Whether a message may be there.
@@ -187,13 +191,13 @@ fn above(window: Rect, messages: &[Rect], size: Vec2) -> Rect {
     Align2::LEFT_BOTTOM.anchor_size(egui::pos2(window.left() + MARGIN, bottom), size)
 }
 
-fn toast(ui: &Ui, message: &Message, place: Rect, offers_folder: bool) -> (Rect, Option<Clicked>) {
+fn toast(ui: &Ui, message: &Message, place: Rect, offer: Option<&'static str>) -> (Rect, Option<Clicked>) {
     let visuals = ui.visuals();
     let color = match message.kind {
-        MessageKind::Done | MessageKind::Saved | MessageKind::Question => visuals.strong_text_color(),
         MessageKind::Error => visuals.error_fg_color,
+        _ => visuals.strong_text_color(),
     };
-    let mut folder = false;
+    let mut takes = false;
     let text = RichText::new(&message.text).color(color);
     let frame = vec2(PADDING, PADDING) + Vec2::splat(ui.visuals().window_stroke.width);
     let response = Area::new(Id::unique(("message", message.id)))
@@ -207,13 +211,13 @@ fn toast(ui: &Ui, message: &Message, place: Rect, offers_folder: bool) -> (Rect,
             Frame::popup(ui.style()).inner_margin(PADDING).show(ui, |ui| {
                 ui.set_max_width(place.width() - 2.0 * frame.x);
                 ui.label(text);
-                folder = offers_folder && ui.button("Open folder").clicked();
+                takes = offer.is_some_and(|name| ui.button(name).clicked());
             });
         })
         .response;
     let response = response.on_hover_text("Click to close");
-    let clicked = folder
-        .then_some(Clicked::Folder)
+    let clicked = takes
+        .then_some(Clicked::Offer)
         .or_else(|| response.clicked().then_some(Clicked::Message));
     (response.rect, clicked)
 }

@@ -26,6 +26,8 @@ pub enum MessageKind {
     Done,
     /// Something was saved; its folder can be opened.
     Saved,
+    /// Something was taken away that can be brought back.
+    TakenAway,
     /// Something could not be done.
     Error,
     /// Waits [`crate::viewer::chrome::ending::ASKS_FOR`] for the same key again.

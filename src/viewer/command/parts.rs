@@ -305,6 +305,8 @@ pub enum WindowCommand {
     },
     /// Removes a message from the screen.
     DismissMessage(u64),
+    /// Brings back what a single press took away last: settings before the defaults, the tiles of a board that was cleared.
+    BringBack,
     /// Closes or unpins what is open, the latest first; quits when nothing is.
     Escape,
     /// Ends the program.

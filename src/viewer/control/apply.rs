@@ -12,7 +12,6 @@ use crate::viewer::control::comparing::Comparing;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::update::follow_lesson;
 use crate::viewer::inspector::Reveal;
-use crate::viewer::settings::picture;
 use crate::viewer::settings::values::next_of;
 use crate::viewer::settings::{Theme, Toggle};
 use crate::viewer::state::Viewer;
@@ -61,7 +60,7 @@ impl Viewer {
                     self.chrome.messages.error(remark);
                 }
             }
-            Command::SetDefaults => picture::reset(&mut self.settings),
+            Command::SetDefaults => self.set_defaults(),
             Command::Ab(command) => self.apply_ab(command),
             Command::Scenes(command) => self.opening().apply(command),
             Command::Lesson(command) => self.opening().lessons().apply(command),
@@ -164,6 +163,7 @@ impl Viewer {
             WindowCommand::Presenter(toggle) => screen.presenter = toggle.of(screen.presenter),
             WindowCommand::FocusPanel { back } => return vec![Effect::FocusPanel { back }],
             WindowCommand::DismissMessage(id) => self.chrome.messages.dismiss(id),
+            WindowCommand::BringBack => self.bring_back(),
             WindowCommand::Escape => return self.escape(),
             WindowCommand::Quit => return vec![Effect::Quit],
         }

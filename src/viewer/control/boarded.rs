@@ -286,7 +286,7 @@ impl Viewer {
                 };
                 self.board.entries.retain(|known| *known != entry);
             }
-            BoardCommand::Clear => self.board.entries.clear(),
+            BoardCommand::Clear => self.clear_board(),
             BoardCommand::Sort(sort) => self.board.sort = sort,
             BoardCommand::SetSide(side) => self.board.side = side.clamp(SIDES[0], SIDES[2]),
             BoardCommand::MakeA(index) => {

@@ -7,6 +7,7 @@ pub(in crate::viewer) mod apply;
 pub(in crate::viewer) mod arranging;
 pub(in crate::viewer) mod boarded;
 pub(in crate::viewer) mod both;
+pub(in crate::viewer) mod bringing_back;
 pub(in crate::viewer) mod comparing;
 pub(in crate::viewer) mod contexts;
 pub(in crate::viewer) mod copy;

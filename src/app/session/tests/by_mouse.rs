@@ -8,7 +8,7 @@ use glam::{DVec2, dvec2};
 use super::hands::{click_on, comparing, key, place_of, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Arrangement, InspectorCommand, Toggle, ViewCommand, WindowCommand};
+use crate::viewer::{AbCommand, Arrangement, Axis, BoardCommand, InspectorCommand, Toggle, ViewCommand, WindowCommand};
 
 /// What closes the explanation.
 const CLOSE: &str = "Explanation";
@@ -316,4 +316,27 @@ fn magnifier_leaves_the_ring_of_its_pin_free() {
             }
         }
     }
+}
+
+#[test]
+fn defaults_and_a_cleared_board_are_undone_by_their_messages() {
+    let mut session = session(Vec::new(), [1600, 1000]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    for (option, value) in [("sample-rate", "16"), ("pattern", "jittered")] {
+        session.command(Command::set(option, value).expect("a value"));
+    }
+    session.settle();
+    let before = *session.viewer.settings();
+    click_on(&mut session, "Default settings");
+    assert_ne!(*session.viewer.settings(), before, "the defaults");
+    click_on(&mut session, "Undo");
+    assert_eq!(*session.viewer.settings(), before, "back");
+    assert!(session.viewer.chrome().messages().is_empty(), "nothing more to undo");
+    let axis = Axis::of("sample-rate", "1,4,16").expect("an axis");
+    session.command(Command::Board(BoardCommand::Vary(axis)));
+    session.settle();
+    click_on(&mut session, "Clear the board");
+    assert!(session.viewer.board().tiles().is_empty(), "cleared");
+    click_on(&mut session, "Undo");
+    assert_eq!(session.viewer.board().tiles().len(), 3, "back");
 }

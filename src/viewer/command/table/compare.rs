@@ -191,7 +191,7 @@ pub(super) static COMPARE: &[CommandSpec] = &[
     )
     .argument(arguments::BOARD_REMOVE),
     spec("board-clear", "Clear the board", "Removes all tiles from the board", Group::Compare)
-        .more("The picture and its settings stay")
+        .more("The picture and its settings stay, and the message about it brings the tiles back")
         .run(&Command::Board(BoardCommand::Clear)),
     spec(
         "board-sort",

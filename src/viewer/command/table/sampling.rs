@@ -32,5 +32,5 @@ spec(
     "Brings every setting of sampling and textures back to what it is in the first session",
     Group::Sampling,
 )
-.more("Settings are remembered from one window to the next")
+.more("Settings are remembered from one window to the next. The message about it brings back what they were before")
 .run(&Command::SetDefaults)];

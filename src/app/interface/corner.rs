@@ -31,7 +31,8 @@ pub(super) fn wide_enough(free: Rect, width: f32, window: Rect) -> Rect {
 /// What is below a card's title, `needed` points wide and high: with bars where that is more than there is `room` for, so that
 /// the title, which closes the card, stays in the window.
 pub(super) fn below_title(ui: &mut Ui, [needed, room]: [Vec2; 2], contents: impl FnOnce(&mut Ui)) {
-    let lacks = [needed.x > room.x, needed.y > room.y];
+    // Half a point is a matter of rounding.
+    let lacks = [needed.x > room.x + 0.5, needed.y > room.y];
     if lacks == [false; 2] {
         return contents(ui);
     }

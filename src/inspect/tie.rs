@@ -21,8 +21,10 @@ pub enum TieSide {
     Right,
     /// With the primitive above it.
     Bottom,
-    /// A corner, with the primitive on its upper left.
+    /// A corner, with which the primitive ends below.
     Corner,
+    /// A corner, from which the primitive goes down, between a left and a right edge.
+    Peak,
 }
 
 /// Whose a sample on an edge is.
@@ -42,6 +44,7 @@ impl TieSide {
             Self::Right => "its right edge",
             Self::Bottom => "its bottom edge",
             Self::Corner => "its last corner",
+            Self::Peak => "a corner that points up, where a right edge begins",
         }
     }
 }

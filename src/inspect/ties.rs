@@ -31,6 +31,7 @@ impl Question<'_> {
                 NotOwned::Right => TieSide::Right,
                 NotOwned::Bottom => TieSide::Bottom,
                 NotOwned::Corner => TieSide::Corner,
+                NotOwned::Peak => TieSide::Peak,
             };
             Some(Tie { sample, side, owner })
         };

@@ -1,7 +1,7 @@
 //! Samples exactly on the edge of a shape that does not own it: the top-left rule gives them to the neighbour.
 //!
-//! Whether a point lies just inside is asked from three sides, without a rounding: left of it, above it, and both. Which one
-//! finds the shape tells which edge it is.
+//! Whether the shape lies beside a point is asked without a rounding: left of it, above it, and between the edges that run down
+//! from it or up. Which one finds the shape tells which edge it is.
 
 use glam::DVec2;
 
@@ -23,8 +23,10 @@ pub enum NotOwned {
     Right,
     /// The shape is above it.
     Bottom,
-    /// The shape only has a corner there, on its upper left.
+    /// The shape only has a corner there, with which it ends below.
     Corner,
+    /// The shape only has a corner there, from which it goes down: the edge on the right of that begins there, too.
+    Peak,
 }
 
 /// An edge of a contour that is not level.
@@ -115,36 +117,74 @@ fn slopes(contour: &[GridPoint]) -> impl Iterator<Item = Slope> {
         })
 }
 
+/// What of a shape lies just above or just below a point.
+#[derive(Debug, Default)]
+struct Half {
+    /// The winding left of all edges through the point.
+    left: i32,
+    /// Those edges: how far each goes to the right, and how far up or down, and its winding.
+    through: Vec<(i64, i64, i32)>,
+}
+
+impl Half {
+    /// Adds an edge that reaches the row just above or below the point; `end` is its end there, `value` its edge function.
+    fn add(&mut self, slope: &Slope, end: GridPoint, (value, point): (i64, GridPoint)) {
+        if value == 0 {
+            let across = i64::from(end.x) - i64::from(point.x);
+            let along = (i64::from(end.y) - i64::from(point.y)).abs();
+            self.through.push((across, along, slope.winding));
+        } else if value < 0 {
+            // To the left on the screen, since the edge runs down.
+            self.left += slope.winding;
+        }
+    }
+
+    /// The windings from left to right: left of the edges through the point, between them, and right of them.
+    fn windings(mut self) -> Vec<i32> {
+        // Leaning as two edges do: by the sign of how they turn.
+        let lean = |a: &(i64, i64, i32), b: &(i64, i64, i32)| (a.0 * b.1).cmp(&(b.0 * a.1));
+        self.through.sort_by(lean);
+        let mut windings = vec![self.left];
+        let mut winding = self.left;
+        for alike in self.through.chunk_by(|a, b| lean(a, b).is_eq()) {
+            winding += alike.iter().map(|(.., winding)| winding).sum::<i32>();
+            windings.push(winding);
+        }
+        windings
+    }
+}
+
 /// The edge that a point lies on, where the shape of these edges has it and does not own it; `None` where the point is inside,
 /// or off the shape.
 fn not_owned(slopes: &[Slope], rule: FillRule, point: GridPoint) -> Option<NotOwned> {
-    let [mut own, mut left, mut above, mut corner] = [0; 4];
+    let [mut above, mut below] = [Half::default(), Half::default()];
     for slope in slopes {
         let value = edge_value(slope.top, slope.bottom, point);
-        // To the left on the screen, since the edge runs down.
-        let is_left = value < 0;
         if slope.top.y <= point.y && point.y < slope.bottom.y {
-            own += slope.winding * i32::from(value <= 0);
-            left += slope.winding * i32::from(is_left);
+            below.add(slope, slope.bottom, (value, point));
         }
         if slope.top.y < point.y && point.y <= slope.bottom.y {
-            // A little above the point, an edge through it lies on the side that it comes from.
-            let comes_from_left = value == 0 && slope.top.x <= slope.bottom.x;
-            above += slope.winding * i32::from(is_left || comes_from_left);
-            corner += slope.winding * i32::from(is_left);
+            above.add(slope, slope.top, (value, point));
         }
     }
-    let is_inside = |winding: i32| match rule {
-        FillRule::NonZero => winding != 0,
+    let is_inside = |winding: &i32| match rule {
+        FillRule::NonZero => *winding != 0,
         FillRule::EvenOdd => winding % 2 != 0,
     };
-    let sides = [
-        (left, NotOwned::Right),
-        (above, NotOwned::Bottom),
-        (corner, NotOwned::Corner),
-    ];
-    let found = sides.into_iter().find(|(winding, _)| is_inside(*winding));
-    found.filter(|_| !is_inside(own)).map(|(_, side)| side)
+    let (below, above) = (below.windings(), above.windings());
+    let (left, own) = (below.first()?, below.last()?);
+    let (upper_left, upper_right) = (above.first()?, above.last()?);
+    if is_inside(own) {
+        None
+    } else if is_inside(left) {
+        Some(NotOwned::Right)
+    } else if is_inside(upper_right) {
+        Some(NotOwned::Bottom)
+    } else if is_inside(upper_left) || above.iter().any(is_inside) {
+        Some(NotOwned::Corner)
+    } else {
+        below.iter().any(is_inside).then_some(NotOwned::Peak)
+    }
 }
 
 #[cfg(test)]
@@ -191,12 +231,33 @@ mod tests {
             ([4, 12], None),
             ([12, 4], Some(NotOwned::Right)),
             ([12, 12], Some(NotOwned::Right)),
-            ([8, 16], Some(NotOwned::Bottom)),
+            ([8, 0], Some(NotOwned::Peak)),
+            ([8, 16], Some(NotOwned::Corner)),
             ([16, 8], Some(NotOwned::Right)),
+            ([0, 8], None),
             ([13, 4], None),
         ] {
             assert_eq!(of(&diamond, point), expected, "{point:?}");
         }
+    }
+
+    #[test]
+    fn corners_that_only_go_up_or_down_are_not_owned() {
+        // To both sides, with an upright edge on either, and leaning either way.
+        for [left, right] in [[-4, 4], [0, 4], [-4, 0], [2, 4], [-4, -2]] {
+            for (end, expected) in [(8, NotOwned::Peak), (-8, NotOwned::Corner)] {
+                let mut contour = [[0, 0], [left, end], [right, end]];
+                assert_eq!(of(&contour, [0, 0]), Some(expected), "{contour:?}");
+                contour.reverse();
+                assert_eq!(of(&contour, [0, 0]), Some(expected), "{contour:?}");
+                assert_eq!(of(&contour, [0, -end]), None, "{contour:?}");
+            }
+        }
+        // The left end of a bottom edge under a side that leans out.
+        assert_eq!(of(&[[0, 0], [8, 0], [8, -8], [4, -8]], [0, 0]), Some(NotOwned::Bottom));
+        // There and back again is nothing.
+        assert_eq!(of(&[[0, 0], [4, 8]], [0, 0]), None);
+        assert_eq!(of(&[[0, 0], [4, -8]], [0, 0]), None);
     }
 
     #[test]

@@ -48,7 +48,7 @@ fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<Strin
         pixel: [x, y],
     };
     let explanation = Explanation::advised(&question).ok_or_else(outside)?;
-    let detail = detail(options, explanation.samples.len())?;
+    let detail = detail(options, &explanation)?;
     if options.json {
         return serde_json::to_string_pretty(&explanation)
             .map_err(|error| Failure::other(format!("cannot write JSON: {error}")));
@@ -56,13 +56,20 @@ fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<Strin
     Ok(explanation.text(detail))
 }
 
-/// `samples` is how many the pixel has.
-fn detail(options: &InspectOptions, samples: usize) -> Result<Detail, Failure> {
-    match options.sample.map(|sample| (sample, sample as usize)) {
-        None => Ok(Detail::Telling),
-        Some((_, sample)) if (1..=samples).contains(&sample) => Ok(Detail::Sample(sample - 1)),
-        Some((sample, _)) => Err(Failure::input(format!(
-            "--sample {sample}: no such sample; a pixel has samples 1 to {samples}"
-        ))),
-    }
+fn detail(options: &InspectOptions, explanation: &Explanation) -> Result<Detail, Failure> {
+    let Some(sample) = options.sample else {
+        return Ok(Detail::Telling);
+    };
+    let samples = explanation.samples.len();
+    let index = (sample as usize).checked_sub(1).filter(|index| *index < samples);
+    index.map(Detail::Sample).ok_or_else(|| {
+        let words = match samples {
+            _ if explanation.exact => {
+                "exact areas are covered, and the pixel has no samples; 1 stands for its centre".to_owned()
+            }
+            1 => "no such sample; the pixel has one, number 1".to_owned(),
+            samples => format!("no such sample; a pixel has samples 1 to {samples}"),
+        };
+        Failure::input(format!("--sample {sample}: {words}"))
+    })
 }

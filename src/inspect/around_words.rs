@@ -17,10 +17,8 @@ impl Explanation {
         let count = around.pixels.len();
         let plural = if count == 1 { "" } else { "s" };
         let samples = match self.resolve.samples {
-            _ if self.exact => format!(
-                "{count} pixel{plural} weigh{} 1 together, each by its place around this one.",
-                if count == 1 { "s" } else { "" }
-            ),
+            _ if self.exact && count == 1 => "this pixel weighs 1, and no other weighs anything.".to_owned(),
+            _ if self.exact => format!("{count} pixels weigh 1 together, each by its place around this one."),
             1 => "1 sample weighs 1, wherever it lies around the pixel's middle.".to_owned(),
             samples => format!(
                 "{samples} samples of {count} pixel{plural} weigh 1 together, each by its place around the pixel's middle."
@@ -35,13 +33,15 @@ impl Explanation {
             let words = "Their light is summed, each weighted by its alpha too: sRGB values are decoded before and encoded after.";
             lines.push(words.to_owned());
         }
-        let weigh = if self.exact {
-            "Each pixel weighs, this one in the middle:"
-        } else {
-            "The samples of each pixel weigh together, this one in the middle:"
-        };
-        lines.push(weigh.to_owned());
-        lines.extend(around.map());
+        if !self.exact || count > 1 {
+            let weigh = if self.exact {
+                "Each pixel weighs, this one in the middle:"
+            } else {
+                "The samples of each pixel weigh together, this one in the middle:"
+            };
+            lines.push(weigh.to_owned());
+            lines.extend(around.map());
+        }
         lines.extend(around.own_lines());
         lines.extend(around.neighbour_lines());
         let names = ["red", "green", "blue", "alpha"];

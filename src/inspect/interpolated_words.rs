@@ -129,7 +129,11 @@ fn texture_lines(taps: &[Tap], texels: &[Texel]) -> Vec<String> {
     }
     if let Some(rest) = heaviest.get(MOST_TEXELS..).filter(|rest| !rest.is_empty()) {
         let weight = rest.iter().map(|texel| texel.weight).sum();
-        lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
+        lines.push(format!(
+            "{:>10}  of {}",
+            percent(weight),
+            counted(rest.len(), "more texel")
+        ));
     }
     lines.extend(clamped(texels.iter().map(|texel| (texel.color, texel.weight))));
     lines
@@ -189,6 +193,19 @@ mod tests {
             Some("clamped   red 100.00 to 80.00: no colour is beyond"),
             "a channel is at most alpha"
         );
+    }
+
+    #[test]
+    fn one_texel_that_is_not_listed_is_told_in_the_singular() {
+        let texel = |column| Texel {
+            level: 0,
+            at: [column, 0],
+            color: [255; 4],
+            weight: 0.05,
+        };
+        let told = |count: u32| texture_lines(&[], &(0..count).map(texel).collect::<Vec<_>>()).pop();
+        assert_eq!(told(17).as_deref(), Some("       5 %  of 1 more texel"));
+        assert_eq!(told(18).as_deref(), Some("      10 %  of 2 more texels"));
     }
 
     #[test]

@@ -381,13 +381,14 @@ impl Texture {
                 "none (no change)".to_owned()
             };
         };
-        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 || self.area.is_some() {
+        let by = if self.fixed {
+            " as the settings say".to_owned()
+        } else if self.extent == FootprintExtent::Longer.name() || self.taps > 1 || self.area.is_some() {
             String::new()
         } else {
             format!(" by {}", self.extent_words())
         };
         match self.bias {
-            _ if self.fixed => format!("{lod:.3} as the settings say"),
             bias if bias != 0.0 => {
                 let (sign, size) = if bias < 0.0 { ("-", -bias) } else { ("+", bias) };
                 format!("{:.3}{by} {sign} {} of bias = {lod:.3}", lod - bias, number(size))

@@ -82,11 +82,7 @@ impl Question<'_> {
             extent: detail.extent.name(),
             taps: reading.taps.count,
             level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
-            bias: if detail.fixed.is_some() {
-                0.0
-            } else {
-                detail.bias.levels()
-            },
+            bias: detail.bias.levels(),
             fixed: detail.fixed.is_some(),
             clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
             levels: levels_read(texture, reading),

@@ -612,6 +612,12 @@ fn cli_inspect_refuses_what_is_not_there() {
     );
     refuse(&["--pixel", "1"], &["a pixel is its column and row from 0"]);
     refuse(&["--pixel", "1,-1"], &["a pixel is its column and row from 0"]);
-    refuse(&["--pixel", "1,1", "--sample", "2"], &["--sample 2", "samples 1 to 1"]);
+    let sample = ["--pixel", "1,1", "--sample", "5"];
+    refuse(&sample, &["--sample 5", "the pixel has one, number 1"]);
+    refuse(&[&sample[..], &["--sample-rate", "4"]].concat(), &["samples 1 to 4"]);
+    refuse(
+        &[&sample[..], &["--sample-rate", "9", "--coverage", "exact"]].concat(),
+        &["--sample 5", "the pixel has no samples; 1 stands for its centre"],
+    );
     refuse(&[], &["--pixel"]);
 }

@@ -1,18 +1,14 @@
 //! How far a pixel is from the truth, and which settings bring it nearer: each is tried on this very pixel, by the code that
 //! draws frames.
 
-use std::collections::BTreeSet;
-
+use super::candidates::{ReadTextures, candidates, is_own, other_coverage, pixel_samplings};
 use super::explanation::Question;
 use super::model::{Causes, Cure, Explanation, Setting, Truth};
 use crate::post::PostProcess;
-use crate::raster::{PixelCoverage, SamplePattern, SampleRate, ShadingRate};
+use crate::raster::SamplePattern;
 use crate::render::{Nearby, RenderSettings};
-use crate::rules::Rules;
 use crate::scene::Dialect;
-use crate::texture::{
-    Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, PyramidFilter,
-};
+use crate::texture::LevelSampling;
 
 /// Corners near a pixel above which it is not drawn again and again: it takes some tenths of a second then.
 const MOST_WORK: usize = 500_000;
@@ -22,10 +18,6 @@ const LEAST: f64 = 1.0;
 const ENOUGH: f64 = 0.75;
 /// What brings less than this part of what another setting does is not worth a word.
 const WORTH_A_WORD: f64 = 0.25;
-/// Texels of a texture above which no sums and ripmaps are made of it for the sake of advice: they would take as long as frames.
-const MOST_TABLED: u64 = 1 << 20;
-/// Samples per pixel that are many.
-const MANY: u32 = 16;
 /// Settings that are told at most.
 const MOST_CURES: usize = 3;
 
@@ -75,7 +67,11 @@ impl Explanation {
             let tiles = self.paints.iter().any(|paint| paint.pattern.is_some());
             let of_tiles =
                 (tiles && texels.clone().next().is_none()).then(|| (Setting::PixelSampling, pixel_samplings(settings)));
-            truth.cures = candidates(settings, texels.max())
+            let textures = texels.max().map(|texels| ReadTextures {
+                texels,
+                closely: self.reads_closely(),
+            });
+            truth.cures = candidates(settings, textures)
                 .into_iter()
                 .chain(of_tiles)
                 .filter(|(setting, _)| *setting != Setting::PixelSampling || !self.is_luck_between_texels())
@@ -87,7 +83,9 @@ impl Explanation {
             }
             truth.cures.sort_by(|a, b| b.nearer.total_cmp(&a.nearer));
             let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
-            truth.cures.retain(|cure| cure.nearer >= best * cure.worth_a_word());
+            truth
+                .cures
+                .retain(|cure| cure.nearer >= best * cure.worth_a_word(settings));
             truth.cures.truncate(MOST_CURES);
             for cure in &mut truth.cures {
                 let is_other = cure.setting == Setting::Pattern && is_own(settings.pattern);
@@ -124,8 +122,13 @@ impl Cure {
     }
 
     /// The part of what the best setting does that this one has to do. A guess has to fit as well as samples do.
-    fn worth_a_word(&self) -> f64 {
-        let is_guess = self.setting == Setting::PostProcess && self.value == PostProcess::Smaa.name();
+    fn worth_a_word(&self, settings: &RenderSettings) -> f64 {
+        let is_guess = match self.setting {
+            Setting::PostProcess => self.value == PostProcess::Smaa.name(),
+            // Levels that are not averaged as samples are.
+            Setting::Pyramid => self.value != settings.resolve.name(),
+            _ => false,
+        };
         if is_guess { ENOUGH } else { WORTH_A_WORD }
     }
 }
@@ -179,250 +182,6 @@ pub(super) fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     apart.fold(0.0, f64::max)
 }
 
-/// Every setting that may bring a pixel nearer to the truth, with the values that are worth trying, the cheapest first.
-/// `texels` is how many the largest texture has that the pixel reads, if it reads any.
-fn candidates(own: &RenderSettings, texels: Option<u64>) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
-    let mut all = vec![
-        (Setting::Rules, rules(own)),
-        (Setting::SampleRate, rates(own)),
-        (Setting::Pattern, patterns(own)),
-        (Setting::ShadingRate, shading_rates(own)),
-        (Setting::PostProcess, post_processes(own)),
-        (Setting::Coverage, coverages(own)),
-    ];
-    if let Some(texels) = texels {
-        all.extend(of_textures(own, texels));
-    }
-    all
-}
-
-fn rules(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let rules = Rules::Standard;
-    let is_other = own.rules != rules;
-    is_other
-        .then(|| (rules.name().to_owned(), RenderSettings { rules, ..*own }))
-        .into_iter()
-        .collect()
-}
-
-/// The most samples per pixel that the truth, of 256, is surely nearer to what is right than.
-const SURE: u32 = 64;
-
-/// The higher sample rates that keys reach, and the highest.
-fn rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let now = own.pattern.nearest(own.sample_rate);
-    // So many samples may be as near to what is right as the highest rate, which is the measure here, is itself. A pattern of
-    // somebody's own takes one rate only.
-    if now.samples() > SURE || is_own(own.pattern) {
-        return Vec::new();
-    }
-    let by_key = std::iter::successors(Some(now), |rate| Some(rate.higher()).filter(|next| next != rate));
-    let highest = SampleRate::new(SampleRate::MAX);
-    by_key
-        .chain(highest)
-        .filter(|rate| *rate > now)
-        .map(|sample_rate| {
-            let settings = RenderSettings { sample_rate, ..*own };
-            (sample_rate.samples().to_string(), settings)
-        })
-        .collect()
-}
-
-/// Whether a pattern came from a file, as the `msaa` patterns do.
-fn is_own(pattern: SamplePattern) -> bool {
-    matches!(pattern, SamplePattern::Custom(_))
-}
-
-/// The pattern whose samples share neither columns nor rows; where a single sample lies is luck.
-fn patterns(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let pattern = SamplePattern::Rotated;
-    let now = own.pattern.nearest(own.sample_rate);
-    let is_sensible = shares_lines(own) && pattern.takes(now) && now > SampleRate::ONE;
-    is_sensible
-        .then(|| (pattern.name().to_owned(), RenderSettings { pattern, ..*own }))
-        .into_iter()
-        .collect()
-}
-
-/// Whether samples of a pixel share columns or rows: those of a grid do, and those of some patterns from files.
-fn shares_lines(own: &RenderSettings) -> bool {
-    match own.pattern {
-        SamplePattern::Grid => true,
-        SamplePattern::Custom(pattern) => {
-            let samples = pattern.samples();
-            [0, 1].into_iter().any(|axis| {
-                let lines: BTreeSet<u8> = samples.iter().map(|sample| sample.place[axis]).collect();
-                lines.len() < samples.len()
-            })
-        }
-        _ => false,
-    }
-}
-
-/// Where colours are computed once: for the covered samples, where that was not so, and for each of them.
-fn shading_rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let others = match own.shading {
-        ShadingRate::Sample => &[][..],
-        ShadingRate::Centre => &[ShadingRate::Centroid, ShadingRate::Sample],
-        ShadingRate::Centroid => &[ShadingRate::Sample],
-    };
-    others
-        .iter()
-        .map(|shading| {
-            let settings = RenderSettings {
-                shading: *shading,
-                ..*own
-            };
-            (shading.name().to_owned(), settings)
-        })
-        .collect()
-}
-
-/// The other ways to leave or to change finished pixels; these are made for one sample per pixel.
-fn post_processes(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let is_sensible = |process: &PostProcess| *process == PostProcess::None || own.sample_rate == SampleRate::ONE;
-    PostProcess::ALL
-        .into_iter()
-        .filter(|process| *process != own.post_process && is_sensible(process))
-        .map(|post_process| (post_process.name().to_owned(), RenderSettings { post_process, ..*own }))
-        .collect()
-}
-
-/// Exact areas where there are many samples already or cannot be more, and samples where areas are covered: a few samples more
-/// are the first thing to try.
-fn coverages(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    if own.coverage.is_exact() || own.sample_rate.samples() >= MANY || is_own(own.pattern) {
-        other_coverage(own)
-    } else {
-        Vec::new()
-    }
-}
-
-/// Samples in the place of areas, many and then as many as are surely farther off than the truth; or the other way.
-fn other_coverage(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    let by = |coverage: PixelCoverage, sample_rate: SampleRate| {
-        let settings = RenderSettings {
-            sample_rate,
-            coverage,
-            ..*own
-        };
-        (coverage.name().to_owned(), settings)
-    };
-    if !own.coverage.is_exact() {
-        return vec![by(PixelCoverage::Exact, own.sample_rate)];
-    }
-    let many = sampled_at(own);
-    // All rates between would be drawn for a word that says little more. Smoothing is made for one sample, and draws many pixels.
-    let is_sensible = !is_own(own.pattern) && own.post_process == PostProcess::None;
-    let more = SampleRate::new(SURE).filter(|more| *more > many && is_sensible);
-    std::iter::once(many)
-        .chain(more)
-        .map(|rate| by(PixelCoverage::Sampled, rate))
-        .collect()
-}
-
-/// At which rate samples are tried where areas are covered, which hides the rate in use: few samples are no match for areas.
-fn sampled_at(own: &RenderSettings) -> SampleRate {
-    let many = SampleRate::new(MANY).unwrap_or(own.sample_rate);
-    if is_own(own.pattern) {
-        own.sample_rate
-    } else {
-        own.sample_rate.max(many)
-    }
-}
-
-/// Levels, and areas of textures.
-fn level_samplings(own: &RenderSettings, texels: u64) -> Vec<(String, RenderSettings)> {
-    let has_tables = texels <= MOST_TABLED;
-    let is_of_table = |level: &LevelSampling| matches!(level, LevelSampling::Ripmap | LevelSampling::SummedArea);
-    // The cheapest first.
-    let levels = [
-        LevelSampling::Linear,
-        LevelSampling::Nearest,
-        LevelSampling::Ripmap,
-        LevelSampling::SummedArea,
-        LevelSampling::Ewa,
-    ];
-    levels
-        .into_iter()
-        .filter(|level| *level != own.level_sampling && (has_tables || !is_of_table(level)))
-        .map(|level_sampling| {
-            let settings = RenderSettings { level_sampling, ..*own };
-            (level_sampling.name().to_owned(), settings)
-        })
-        .collect()
-}
-
-/// The ways to read between texels, of textures and of patterns' tiles.
-fn pixel_samplings(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
-    PixelSampling::ALL
-        .into_iter()
-        .filter(|sampling| *sampling != PixelSampling::Nearest && *sampling != own.pixel_sampling)
-        .map(|pixel_sampling| {
-            let settings = RenderSettings { pixel_sampling, ..*own };
-            (pixel_sampling.name().to_owned(), settings)
-        })
-        .collect()
-}
-
-/// `texels` is how many the largest texture has.
-fn of_textures(own: &RenderSettings, texels: u64) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
-    let detail = |value: &str, changes: bool, detail: LevelOfDetail| {
-        let settings = RenderSettings { detail, ..*own };
-        changes.then(|| (value.to_owned(), settings)).into_iter().collect()
-    };
-    let taps = Anisotropy::STEPS
-        .into_iter()
-        .filter(|anisotropy| *anisotropy > own.anisotropy)
-        .map(|anisotropy| (anisotropy.taps().to_string(), RenderSettings { anisotropy, ..*own }));
-    let automatic = LevelOfDetail {
-        fixed: None,
-        ..own.detail
-    };
-    let unbiased = LevelOfDetail {
-        bias: LodBias::default(),
-        ..own.detail
-    };
-    let per_sample = LevelOfDetail {
-        derivatives: Derivatives::Sample,
-        ..own.detail
-    };
-    let longer = LevelOfDetail {
-        extent: FootprintExtent::Longer,
-        ..own.detail
-    };
-    // Averaged as samples are.
-    let pyramid = (own.pyramid != own.resolve).then(|| {
-        let settings = RenderSettings {
-            pyramid: own.resolve,
-            ..*own
-        };
-        (own.resolve.name().to_owned(), settings)
-    });
-    let boxed = (own.pyramid_filter != PyramidFilter::Box).then(|| {
-        let settings = RenderSettings {
-            pyramid_filter: PyramidFilter::Box,
-            ..*own
-        };
-        (PyramidFilter::Box.name().to_owned(), settings)
-    });
-    vec![
-        (Setting::PyramidFilter, boxed.into_iter().collect()),
-        (Setting::Pyramid, pyramid.into_iter().collect()),
-        (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
-        (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
-        (Setting::LevelSampling, level_samplings(own, texels)),
-        (Setting::Anisotropy, taps.collect()),
-        (Setting::LodBy, detail("longer", own.detail != longer, longer)),
-        // Where one colour is computed for all samples, none of them reads a texture itself.
-        (
-            Setting::LodPer,
-            detail("sample", own.detail != per_sample && !own.shading.is_once(), per_sample),
-        ),
-        (Setting::PixelSampling, pixel_samplings(own)),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -439,19 +198,5 @@ mod tests {
             let found = distance(a, b);
             assert!((found - expected).abs() < 1e-9, "{a:?} to {b:?} is {found}");
         }
-    }
-
-    #[test]
-    fn candidates_are_other_settings() {
-        let own = RenderSettings::default();
-        for texels in [None, Some(1), Some(u64::MAX)] {
-            for (setting, values) in candidates(&own, texels) {
-                for (value, settings) in values {
-                    assert!(settings != own, "{setting:?} {value}");
-                }
-            }
-        }
-        let rates: Vec<String> = rates(&own).into_iter().map(|(value, _)| value).collect();
-        assert_eq!(rates, ["4", "9", "16", "25", "36", "49", "64", "256"], "cheapest first");
     }
 }

@@ -5,22 +5,16 @@
 
 use std::collections::BTreeSet;
 
-use super::model::{
-    Causes, Cure, Explanation, Interpolated, Missed, MissedCause, NotDrawn, Paint, Setting, Texture, Truth, View,
-};
+use super::model::{Causes, Cure, Explanation, Missed, MissedCause, NotDrawn, Paint, Setting, Texture, Truth, View};
 use super::numbers::{about, number, percent, significant};
 use crate::color::ResolveSpace;
 use crate::raster::{PixelCoverage, SampleRate, ShadingRate};
 use crate::texture::PyramidFilter;
 
-/// How many times as long as wide a footprint is from which on averaging it both ways blurs.
-const BLURS: f64 = 2.0;
 /// The part of a pixel by which samples may be wrong about coverage before anybody is told.
 const WRONG: f64 = 0.2;
-/// Texels between samples from which on some are left out whatever the filter.
-const LEAVES_OUT: f64 = 2.0;
 /// The part of what a setting brings that a reason has to account for.
-const MOSTLY: f64 = 0.5;
+pub(super) const MOSTLY: f64 = 0.5;
 /// Levels by which two truths may differ before anybody is told: at a plain edge they do by up to so many.
 const SURE: f64 = 6.0;
 
@@ -62,32 +56,23 @@ impl Explanation {
 
     /// What is wrong with this pixel that a setting cures.
     fn reason(&self, cure: &Cure) -> Option<String> {
-        let texture = self.topmost().and_then(|paint| Some((paint, paint.texture.as_ref()?)));
         match cure.setting {
             Setting::SampleRate => self
                 .missed_parts(cure)
                 .or_else(|| self.thin_topmost(cure))
                 .or_else(|| self.wrong_coverage(cure))
-                .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture, cure))),
-            Setting::LevelSampling => texture.and_then(|(paint, texture)| {
-                let blurred = || cure.weighs_area().then(|| texture.blurred_across()).flatten();
-                self.few_of_many(paint, texture).or_else(blurred)
-            }),
-            Setting::Anisotropy => texture.and_then(|(_, texture)| texture.blurred_across()),
-            Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels(self.exact)),
+                .or_else(|| self.texels_between(cure)),
+            Setting::LevelSampling => self.level_sampling_reason(cure),
+            Setting::Anisotropy => self.topmost_texture()?.1.blurred_across(),
+            Setting::PixelSampling => self.topmost_texture()?.1.single_texels(self.exact),
             Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
             Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),
-            Setting::LodPer => {
-                Some("The level of detail is that of a whole pixel, for each of its samples.".to_owned())
-            }
-            Setting::Pyramid => texture.map(|(_, texture)| {
-                let [levels, samples] = match texture.averaged_in() {
-                    ResolveSpace::Stored => ["stored values", "linear light"],
-                    ResolveSpace::Linear => ["linear light", "stored values"],
-                };
-                format!("Mip levels were averaged in {levels}, and samples are in {samples}.")
-            }),
-            Setting::PyramidFilter => texture.and_then(|(_, texture)| match texture.filtered_by() {
+            Setting::LodPer => self
+                .seen_textures()
+                .find_map(Texture::of_whole_pixel)
+                .map(str::to_owned),
+            Setting::Pyramid => self.pyramid_reason(cure),
+            Setting::PyramidFilter => match self.topmost_texture()?.1.filtered_by() {
                 PyramidFilter::Box => None,
                 PyramidFilter::Tent => {
                     Some("Each texel of a mip level holds an eighth of those beside its own.".to_owned())
@@ -95,14 +80,14 @@ impl Explanation {
                 PyramidFilter::Kaiser => {
                     Some("The Kaiser filter of the mip levels overshoots beside edges.".to_owned())
                 }
-            }),
-            Setting::LodBy => texture.map(|(_, texture)| {
+            },
+            Setting::LodBy => self.topmost_texture().map(|(_, texture)| {
                 format!(
                     "The level of detail follows {} of the footprint, and its longer side reaches further.",
                     texture.extent_words()
                 )
             }),
-            Setting::ShadingRate => self.topmost().and_then(|paint| paint.shaded_elsewhere(cure)),
+            Setting::ShadingRate => self.shaded_elsewhere(cure),
             Setting::PostProcess => Some(match self.smoothing {
                 Some(_) => "SMAA has guessed here.".to_owned(),
                 None => "A guess from the form of the edges happens to fit here.".to_owned(),
@@ -114,11 +99,21 @@ impl Explanation {
 
     /// The topmost primitive that is seen.
     pub(super) fn topmost(&self) -> Option<&Paint> {
-        self.paints.iter().rev().find(|paint| paint.is_seen())
+        self.paints.get(self.topmost_number()?)
+    }
+
+    /// Its number among the paints.
+    fn topmost_number(&self) -> Option<usize> {
+        self.paints.iter().rposition(Paint::is_seen)
+    }
+
+    /// The topmost primitive that is seen, as the report numbers it.
+    fn topmost_numbered(&self) -> Option<String> {
+        self.topmost_number().map(|paint| self.numbered(paint))
     }
 
     /// The distance of neighbouring samples, in pixels.
-    fn step(&self) -> f64 {
+    pub(super) fn step(&self) -> f64 {
         1.0 / (self.samples.len().max(1) as f64).sqrt()
     }
 
@@ -163,27 +158,24 @@ impl Explanation {
     fn thin_topmost(&self, cure: &Cure) -> Option<String> {
         let paint = self.topmost().filter(|paint| !paint.is_crisp())?;
         let width = paint.width.filter(|width| self.is_less_than_apart(*width))?;
-        (self.resolve.around.is_none() && self.is_of_topmost(cure)).then(|| {
-            format!(
-                "The {} is {} px wide here, less than samples are apart ({} px): it breaks up where it passes between them.",
-                paint.name(),
-                significant(width),
-                significant(self.step())
-            )
-        })
+        (self.resolve.around.is_none() && self.is_of_topmost(cure)).then_some(())?;
+        Some(format!(
+            "Here {} is {} px wide, less than samples are apart ({} px): it breaks up where it passes between them.",
+            self.topmost_numbered()?,
+            significant(width),
+            significant(self.step())
+        ))
     }
 
     fn wrong_coverage(&self, cure: &Cure) -> Option<String> {
         let paint = self.topmost()?;
         let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
-        ((part - area).abs() > WRONG && self.explains(paint, area) && self.is_of_topmost(cure)).then(|| {
-            format!(
-                "By its samples the {} covers {} of the pixel; by area, {}.",
-                paint.name(),
-                percent(part),
-                percent(area)
-            )
-        })
+        let is_wrong = (part - area).abs() > WRONG && self.explains(paint, area) && self.is_of_topmost(cure);
+        let named = self.topmost_numbered().filter(|_| is_wrong)?;
+        let [part, area] = [part, area].map(percent);
+        Some(format!(
+            "By its samples {named} covers {part} of the pixel; by area, {area}."
+        ))
     }
 
     /// Whether the truth can be a paint's colour over this part of the pixel and some colour over the rest.
@@ -207,6 +199,26 @@ impl Explanation {
         })
     }
 
+    /// That the colour of the topmost primitive was computed once for the pixel, and where, if `cure` computes it at each sample or
+    /// elsewhere.
+    fn shaded_elsewhere(&self, cure: &Cure) -> Option<String> {
+        /// Weights of places on an edge are zero but for rounding.
+        const OUTSIDE: f64 = -1e-9;
+        let is_outside = |view: &View| match view {
+            View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < OUTSIDE),
+            View::Polygon { .. } => false,
+        };
+        let (paint, named) = (self.topmost()?, self.topmost_numbered()?);
+        let extrapolates = paint.is_shaded_in_centre()? && paint.views.first().is_some_and(is_outside);
+        if extrapolates {
+            return Some(format!(
+                "For the whole pixel {named} is shaded once, in its centre, which lies outside: its colour is extrapolated."
+            ));
+        }
+        let is_at_each = cure.value == ShadingRate::Sample.name();
+        is_at_each.then(|| format!("For the whole pixel {named} is shaded once, not at each of its samples."))
+    }
+
     /// The part of the samples that any piece of a paint's primitive covers.
     pub(super) fn covered_part(&self, paint: &Paint) -> f64 {
         if self.exact {
@@ -218,80 +230,6 @@ impl Explanation {
             .filter(|other| other.primitive == paint.primitive && other.area.is_some());
         let covered: BTreeSet<usize> = pieces.flat_map(Paint::samples).collect();
         covered.len() as f64 / self.samples.len().max(1) as f64
-    }
-
-    /// Whether the samples of the topmost texture lie so far apart that it is luck which texels they read, whatever is read around
-    /// each.
-    pub(super) fn is_luck_between_texels(&self) -> bool {
-        let texture = self.topmost().and_then(|paint| paint.texture.as_ref());
-        texture.is_some_and(|texture| texture.reads_base_once() && self.texels_apart(texture) > LEAVES_OUT)
-    }
-
-    /// How many texels the samples of a texture lie apart.
-    fn texels_apart(&self, texture: &Texture) -> f64 {
-        texture.major * if texture.step == "sample" { 1.0 } else { self.step() }
-    }
-
-    fn texels_between(&self, texture: &Texture, cure: &Cure) -> Option<String> {
-        if self.topmost()?.shaded_at.is_some() {
-            // One place is read, however many samples there are.
-            return None;
-        }
-        let apart = self.texels_apart(texture);
-        let causes = self.truth.as_ref().map(|truth| &truth.causes);
-        let by_texture = causes.is_none_or(|causes| causes.textures >= cure.nearer * MOSTLY);
-        (texture.reads_base_once() && apart > LEAVES_OUT && by_texture).then(|| {
-            format!(
-                "Samples lie about {} texels apart here, and what is between them is not read.",
-                significant(apart)
-            )
-        })
-    }
-
-    /// How many texels the pixel's footprint holds, and how few of them its samples read.
-    fn few_of_many(&self, paint: &Paint, texture: &Texture) -> Option<String> {
-        let ([a, b], [c, d]) = (texture.right, texture.down);
-        let steps = if texture.step == "sample" {
-            self.samples.len()
-        } else {
-            1
-        };
-        let held = (a * d - b * c).abs() * steps as f64;
-        let read: BTreeSet<[u32; 2]> = paint
-            .views
-            .iter()
-            .filter_map(|view| match view {
-                View::Triangle {
-                    value: Interpolated::Texture { texels, .. },
-                    ..
-                } => Some(texels),
-                _ => None,
-            })
-            .flatten()
-            .map(|texel| texel.at)
-            .collect();
-        let is_whole = paint.fragments.len() == self.samples.len();
-        // A texture that goes on beyond its border may be read whole.
-        let [width, height] = texture.size.map(u64::from);
-        let leaves_out = (read.len() as u64) < width * height;
-        (is_whole && leaves_out && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
-            let readers = if self.exact || paint.shaded_at.is_some() {
-                "the one place that is shaded reads"
-            } else if self.samples.len() == 1 {
-                "its only sample reads"
-            } else {
-                "its samples read"
-            };
-            let texels = if read.len() == 1 {
-                "one"
-            } else {
-                &read.len().to_string()
-            };
-            format!(
-                "The pixel's footprint holds about {} texels, of which {readers} {texels}.",
-                significant(held)
-            )
-        })
     }
 }
 
@@ -351,31 +289,6 @@ impl MissedCause {
     }
 }
 
-impl Paint {
-    /// That its colour was computed once for the pixel, and where, if `cure` computes it at each sample or elsewhere.
-    fn shaded_elsewhere(&self, cure: &Cure) -> Option<String> {
-        /// Weights of places on an edge are zero but for rounding.
-        const OUTSIDE: f64 = -1e-9;
-        let is_outside = |view: &View| match view {
-            View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < OUTSIDE),
-            View::Polygon { .. } => false,
-        };
-        let extrapolates = self.is_shaded_in_centre()? && self.views.first().is_some_and(is_outside);
-        if extrapolates {
-            let name = self.name();
-            return Some(format!(
-                "The {name} is shaded once for the whole pixel, in its centre, which lies outside: its colour is extrapolated."
-            ));
-        }
-        (cure.value == ShadingRate::Sample.name()).then(|| {
-            format!(
-                "The {} is shaded once for the whole pixel, not at each of its samples.",
-                self.name()
-            )
-        })
-    }
-}
-
 impl Cure {
     /// What to set, the key that steps through the values, and what it brings.
     fn words(&self) -> String {
@@ -424,114 +337,4 @@ fn levels(count: f64) -> String {
     let count = number((count * 10.0).round() / 10.0);
     let plural = if count == "1" { "" } else { "s" };
     format!("{count} level{plural}")
-}
-
-impl Texture {
-    /// Whether a sample reads a single place of the base level.
-    fn reads_base_once(&self) -> bool {
-        self.taps == 1 && self.area.is_none() && matches!(self.levels.as_slice(), [level] if level.number == 0)
-    }
-
-    fn single_texels(&self, exact: bool) -> Option<String> {
-        let is_point = self.taps == 1 && self.area.is_none();
-        let one = self.pixel_sampling == "nearest" && is_point && self.levels.len() == 1;
-        let reader = if exact { "The pixel's centre" } else { "A sample" };
-        one.then(|| format!("{reader} reads only the nearest texel."))
-    }
-
-    fn blurred_across(&self) -> Option<String> {
-        // Neither fixed nor biased: the level is that of the longer side.
-        let follows = (self.clamped - self.major.log2()).abs() < 0.01;
-        let [long, wide] = self.footprint();
-        let is_long = self.taps == 1 && self.area.is_none() && self.clamped > 0.0 && long > BLURS * wide;
-        (self.level_sampling != "zero" && follows && is_long).then(|| {
-            let ratio = if wide > 0.0 {
-                number((long / wide).round())
-            } else {
-                "many".to_owned()
-            };
-            format!("The footprint is {ratio} times as long as wide, and its level averages as much across as along: that blurs.")
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::model::Level;
-    use super::*;
-
-    fn texture(pixel_sampling: &'static str, level_sampling: &'static str, [major, minor]: [f64; 2]) -> Texture {
-        let clamped = if level_sampling == "zero" {
-            0.0
-        } else {
-            major.max(1.0).log2()
-        };
-        let level = |number, weight| Level {
-            number,
-            size: [64, 64],
-            weight,
-        };
-        Texture {
-            name: "checker".to_owned(),
-            index: 0,
-            size: [64, 64],
-            pixel_sampling,
-            wrap: "clamp",
-            asked: false,
-            level_sampling,
-            right: [major, 0.0],
-            down: [0.0, minor],
-            step: "pixel",
-            major,
-            minor,
-            extent: "longer",
-            taps: 1,
-            level_of_detail: Some(major.log2()),
-            clamped,
-            bias: 0.0,
-            fixed: false,
-            levels: match level_sampling {
-                "linear" => vec![level(3, 0.5), level(4, 0.5)],
-                _ => vec![level(0, 1.0)],
-            },
-            area: None,
-            pyramid: "stored",
-            pyramid_filter: "box",
-            opacity: 1.0,
-        }
-    }
-
-    #[test]
-    fn only_one_texel_is_said_to_be_the_only_one() {
-        let taps = |taps, texture| Texture { taps, ..texture };
-        for (texture, expected) in [
-            (texture("nearest", "zero", [9.0, 8.0]), true),
-            (texture("bilinear", "zero", [9.0, 8.0]), false),
-            (texture("nearest", "linear", [9.0, 8.0]), false),
-            (taps(16, texture("nearest", "zero", [9.0, 1.0])), false),
-        ] {
-            assert_eq!(texture.single_texels(false).is_some(), expected, "{texture:?}");
-        }
-    }
-
-    #[test]
-    fn long_footprints_are_blurred_where_one_tap_reads_their_level() {
-        let long = texture("bilinear", "linear", [9.0, 1.0]);
-        let blurs = |texture: &Texture| texture.blurred_across().is_some();
-        assert!(blurs(&long), "nine times as long");
-        for (texture, why) in [
-            (texture("bilinear", "zero", [9.0, 1.0]), "level 0 averages nothing"),
-            (texture("bilinear", "linear", [9.0, 8.0]), "nearly square"),
-            (
-                Texture {
-                    taps: 5,
-                    ..long.clone()
-                },
-                "taps lie along it",
-            ),
-            (Texture { clamped: 0.0, ..long }, "another level is fixed"),
-        ] {
-            assert!(!blurs(&texture), "{why}");
-        }
-    }
 }

@@ -44,7 +44,8 @@ impl Explanation {
         textured.next()
     }
 
-    fn level_of<'a>(&self, paint: &'a Paint) -> Option<LevelInUse<'a>> {
+    /// The level that a paint which is seen reads most of; `None` where it reads no texture.
+    pub(super) fn level_of<'a>(&self, paint: &'a Paint) -> Option<LevelInUse<'a>> {
         let texture = paint.texture.as_ref()?;
         let level = texture.main_level()?;
         let fragment = paint.fragments.iter().find(|fragment| fragment.seen)?;

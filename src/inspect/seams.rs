@@ -245,7 +245,7 @@ impl Explanation {
     }
 
     /// Such as `2 (polygon, line 7)`, as the report numbers paints.
-    fn numbered(&self, paint: usize) -> String {
+    pub(super) fn numbered(&self, paint: usize) -> String {
         let name = self.paints.get(paint).map(Paint::name).unwrap_or_default();
         format!("{} ({name})", paint + 1)
     }

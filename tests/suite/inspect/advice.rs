@@ -127,7 +127,12 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
         Setting::LodLevel => settings.detail.fixed = None,
         Setting::LodBias => settings.detail.bias = LodBias::new(value.parse().unwrap()).unwrap(),
         Setting::LodPer => settings.detail.derivatives = Derivatives::Sample,
-        Setting::Pyramid => settings.pyramid = settings.resolve,
+        Setting::Pyramid => {
+            settings.pyramid = ResolveSpace::ALL
+                .into_iter()
+                .find(|space| space.name() == value)
+                .unwrap();
+        }
         Setting::PyramidFilter => settings.pyramid_filter = PyramidFilter::Box,
         Setting::LodBy => settings.detail.extent = FootprintExtent::Longer,
         Setting::LevelSampling => {
@@ -317,7 +322,7 @@ fn check_words(found: &Explanation, scene: &Scene, view: &ViewTransform, (hint, 
         let step = 1.0 / (found.samples.len() as f64).sqrt();
         // A rim of few points lies in what is a little narrower.
         let is_thin = |primitive: u32| !holds_disc(scene, view, (primitive, found.pixel, step * 1.03));
-        let thin = if hint.contains("px wide here") {
+        let thin = if hint.contains("px wide, less") {
             let mut seen = found.paints.iter().rev();
             let topmost = seen.find(|paint| paint.fragments.iter().any(|fragment| fragment.seen));
             topmost.is_some_and(|paint| is_thin(paint.primitive))

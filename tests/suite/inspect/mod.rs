@@ -8,3 +8,4 @@ mod pixels;
 mod reasons;
 mod seams;
 mod siblings;
+mod textures;

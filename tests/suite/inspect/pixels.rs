@@ -610,7 +610,7 @@ fn what_is_thin_is_told_where_a_sample_meets_it_too() {
         found.hints().concat()
     };
     let thin = told("1.4,0 1.6,0 1.5,8");
-    let words = "px wide here, less than samples are apart (1 px): it breaks up where it passes between them";
+    let words = "px wide, less than samples are apart (1 px): it breaks up where it passes between them";
     assert!(thin.contains(words), "{thin}");
     let wide = told("1.2,0 8,0 8,8 1.2,8");
     assert!(!wide.contains("wide here"), "a wide one: {wide}");

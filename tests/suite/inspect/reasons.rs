@@ -1,7 +1,7 @@
 //! What is given as the reason is the reason: small documents in which something else lies near, above, below or beside it.
 
 use rasterscope::inspect::{Detail, Explanation};
-use rasterscope::raster::{PixelCoverage, ResolveFilter, SampleRate};
+use rasterscope::raster::{PixelCoverage, ResolveFilter, SampleRate, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions};
@@ -364,6 +364,44 @@ fn a_shape_beside_another_of_its_colour_is_not_blamed() {
     assert!(alone.contains("covers 100 % of the pixel; by area, 60 %"), "{alone}");
 }
 
+/// A line of a document may hold all of its elements.
+#[test]
+fn advice_numbers_what_it_names() {
+    let wide = r#"<rect x="2" y="2" width="6.6" height="16"/>"#;
+    let told = hints(wide, &at_rate(1), [8, 5]);
+    let expected = "By its samples 2 (polygon of rect, line 1) covers 100 % of the pixel; by area, 60 %.";
+    assert!(told.contains(expected), "{told}");
+    let thin = r#"<rect x="8.4" y="2" width="0.2" height="16"/>"#;
+    let told = hints(thin, &at_rate(1), [8, 5]);
+    let expected = "Here 2 (polygon of rect, line 1) is 0.2 px wide, less than samples are apart (1 px): it breaks up";
+    assert!(told.contains(expected), "{told}");
+    let steep = r##"<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="8" x2="9"><stop offset="0.7"/><stop offset="0.7" stop-color="#fff"/></linearGradient><rect x="8" width="8" height="20" fill="url(#g)"/>"##;
+    let once = RenderSettings {
+        shading: ShadingRate::Centre,
+        ..at_rate(16)
+    };
+    let told = hints(steep, &once, [8, 5]);
+    let expected =
+        "For the whole pixel 2 (polygon of rect, line 1) is shaded once, not at each of its samples. Shading per";
+    assert!(told.contains(expected), "{told}");
+}
+
+/// A tent of radius 1 is 0 at the middles of the neighbours, which is where areas count.
+#[test]
+fn a_filter_that_takes_one_pixel_says_so() {
+    let settings = RenderSettings {
+        resolve_filter: ResolveFilter::Tent,
+        ..by_areas()
+    };
+    let told = told_of(r#"<rect x="2" y="2" width="6.6" height="16"/>"#, &settings, [8, 5]);
+    let lines = told.resolve_lines();
+    assert_eq!(
+        lines[0],
+        "Filter tent, radius 1: this pixel weighs 1, and no other weighs anything."
+    );
+    assert!(!lines.join("\n").contains("Each pixel weighs"), "{lines:?}");
+}
+
 #[test]
 fn the_only_sample_on_an_edge_is_given_away_by_the_top_left_rule() {
     let by_rule = "and is the neighbour's by the top-left rule";
@@ -381,6 +419,18 @@ fn the_only_sample_on_an_edge_is_given_away_by_the_top_left_rule() {
         ),
         (
             r#"<rect x="1" y="1" width="7.5" height="7.5"/>"#,
+            [8, 8],
+            format!("covers 25 % of the pixel, and no sample: the only one lies exactly on its last corner, {by_rule}"),
+        ),
+        (
+            r#"<path d="M8.5 8.5L11 11L6 11z"/>"#,
+            [8, 8],
+            format!(
+                "covers 25 % of the pixel, and no sample: the only one lies exactly on a corner that points up, where a right edge begins, {by_rule}"
+            ),
+        ),
+        (
+            r#"<path d="M8.5 8.5L11 6L6 6z"/>"#,
             [8, 8],
             format!("covers 25 % of the pixel, and no sample: the only one lies exactly on its last corner, {by_rule}"),
         ),

@@ -1,0 +1,187 @@
+//! What is said of textures under a pixel: footprints, levels and areas, and why other settings read them better.
+
+use rasterscope::color::ResolveSpace;
+use rasterscope::inspect::{Explanation, Setting};
+use rasterscope::raster::{PixelCoverage, SampleRate};
+use rasterscope::render::RenderSettings;
+use rasterscope::scene::{self, ReadOptions, Scene};
+use rasterscope::texture::{Anisotropy, FixedLevel, LevelSampling, LodBias};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+
+use crate::support::explaining::{advised, advised_by_default, explained};
+
+fn with(samples: u32, level_sampling: LevelSampling) -> RenderSettings {
+    RenderSettings {
+        sample_rate: SampleRate::new(samples).unwrap(),
+        level_sampling,
+        ..RenderSettings::default()
+    }
+}
+
+/// A texture of the gallery over 8 x 8 pixels, of which one holds so many copies of it in width and in height; the point (0, 0) of the
+/// texture lies in the middle.
+fn textured(name: &str, copies: f64) -> Scene {
+    let (low, high) = (-4.0 * copies, 12.0 * copies);
+    let document = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">
+        <texture texid="map" filename="../../assets/textures/{name}"/>
+        <textri texid="map" uvs="{low} {low} {high} {low} {low} {high}" points="0,0 16,0 0,16"/></svg>"#
+    );
+    scene::read(document.as_bytes(), "textured.svg", ReadOptions::default(), &Textures).unwrap()
+}
+
+fn hints(found: &Explanation) -> String {
+    found.hints().join("\n")
+}
+
+#[test]
+fn advice_on_derivatives_says_what_follows_a_pixel() {
+    let read = |name: &str| {
+        let scene = SCENES.iter().find(|scene| scene.name.ends_with(name)).unwrap();
+        scene::read(scene.document.as_bytes(), name, ReadOptions::default(), &Textures).unwrap()
+    };
+    let (size, seal, map) = ([61, 77], read("texmap/test4.svg"), read("texmap/test2.svg"));
+    let taps = |count, own| RenderSettings {
+        anisotropy: Anisotropy::new(count).unwrap(),
+        ..own
+    };
+    let mut fixed = taps(2, with(4, LevelSampling::Zero));
+    fixed.detail.fixed = FixedLevel::new(0.0);
+    let level = "The level of detail is that of a whole pixel, for each of its samples. Level of detail per sample: ";
+    let along =
+        "The taps of each sample lie along the footprint of a whole pixel, not of the sample's part of it. Level of";
+    for (scene, pixel, settings, expected) in [
+        (&seal, [20, 40], with(9, LevelSampling::Linear), level),
+        (
+            &seal,
+            [20, 40],
+            with(9, LevelSampling::SummedArea),
+            "The box that each sample averages is that of a whole pixel, not of the sample's part of it. Level of",
+        ),
+        (
+            &seal,
+            [20, 40],
+            with(9, LevelSampling::Ewa),
+            "The ellipse that each sample weighs is that of a whole pixel, not of the sample's part of it. Level of",
+        ),
+        (
+            &seal,
+            [20, 40],
+            with(9, LevelSampling::Ripmap),
+            "The ripmap's levels are those of a whole pixel's footprint, for each of its samples. Level of",
+        ),
+        (&map, [14, 35], taps(2, with(4, LevelSampling::Zero)), along),
+        (&map, [14, 35], fixed, along),
+    ] {
+        let told = hints(&advised_by_default(scene, &settings, size, pixel));
+        assert!(told.contains(expected), "{expected} {settings:?}: {told}");
+    }
+}
+
+#[test]
+fn advice_on_the_pyramid_says_what_was_averaged_and_what_is() {
+    let scene = textured("checker.png", 0.3);
+    let light = |own: RenderSettings| RenderSettings {
+        resolve: ResolveSpace::Linear,
+        ..own
+    };
+    let exact = RenderSettings {
+        coverage: PixelCoverage::Exact,
+        ..with(1, LevelSampling::Linear)
+    };
+    for (settings, expected) in [
+        (
+            with(16, LevelSampling::Linear),
+            "Mip levels were averaged in stored values, and samples are averaged in linear light. Pyramid linear",
+        ),
+        (
+            with(16, LevelSampling::SummedArea),
+            "The table was summed in stored values, and samples are averaged in linear light. Pyramid linear",
+        ),
+        (
+            with(16, LevelSampling::Ripmap),
+            "The ripmap's levels were averaged in stored values, and samples are averaged in linear light. Pyramid",
+        ),
+        (
+            with(1, LevelSampling::Linear),
+            "Mip levels were averaged in stored values, and the truth's samples are averaged in linear light. Pyramid",
+        ),
+        (
+            exact,
+            "Mip levels were averaged in stored values, and areas are mixed in linear light. Pyramid linear",
+        ),
+    ] {
+        let told = hints(&advised(&scene, &light(settings), [8, 8], [5, 5]));
+        assert!(told.contains(expected), "{expected} {settings:?}: {told}");
+    }
+}
+
+#[test]
+fn a_pyramid_unlike_the_samples_is_advised_as_luck() {
+    let scene = textured("map.png", 0.05);
+    let settings = with(1, LevelSampling::Linear);
+    let pixels = (0..8).flat_map(|y| (0..8).map(move |x| [x, y]));
+    let told = pixels.map(|pixel| advised(&scene, &settings, [8, 8], pixel));
+    let mut lucky = told.filter(|found| {
+        let cures = found.truth.iter().flat_map(|truth| &truth.cures);
+        cures.into_iter().any(|cure| cure.setting == Setting::Pyramid)
+    });
+    let told = hints(&lucky.next().expect("some pixel is nearer by luck"));
+    let expected = "Mip levels were averaged in stored values, as samples of the truth are: that another average comes nearer happens to be so here. Pyramid linear: ";
+    assert!(told.contains(expected), "{told}");
+}
+
+#[test]
+fn level_0_is_advised_where_samples_read_all_of_it() {
+    // One pixel shows 12 x 8 texels.
+    let scene = textured("picture.png", 0.0125);
+    let told = |samples| hints(&advised(&scene, &with(samples, LevelSampling::Linear), [8, 8], [7, 5]));
+    let expected = "Samples lie only about 1.5 texels apart here, close enough to read level 0 as it is: to average it before blurs. Level sampling zero (key L";
+    let close = told(64);
+    assert!(close.contains(expected), "{close}");
+    let far = told(4);
+    assert!(!far.contains("Level sampling zero"), "it would be luck: {far}");
+}
+
+#[test]
+fn footprints_hold_no_more_texels_than_the_texture() {
+    // The texture is a quarter of that pixel; the rest repeats its border.
+    let told = hints(&advised(
+        &textured("map.png", 2.0),
+        &with(1, LevelSampling::Zero),
+        [8, 8],
+        [4, 4],
+    ));
+    let expected = "The pixel's footprint holds about 2097152 texels, of which its only sample reads one.";
+    assert!(told.contains(expected), "{told}");
+}
+
+#[test]
+fn a_fixed_level_of_detail_tells_its_bias() {
+    let scene = textured("map.png", 0.05);
+    let told = |bias: f64| {
+        let mut settings = with(1, LevelSampling::Linear);
+        settings.detail.fixed = FixedLevel::new(2.0);
+        settings.detail.bias = LodBias::new(bias).unwrap();
+        let found = explained(&scene, &settings, [8, 8], [4, 4]);
+        let lines = (0..found.paints.len()).flat_map(|paint| found.paint_lines(paint));
+        lines
+            .into_iter()
+            .find(|line| line.starts_with("level of detail"))
+            .unwrap()
+    };
+    for (bias, expected) in [
+        (
+            1.5,
+            "level of detail  2.000 as the settings say + 1.5 of bias = 3.500, ",
+        ),
+        (
+            -0.5,
+            "level of detail  2.000 as the settings say - 0.5 of bias = 1.500, ",
+        ),
+        (0.0, "level of detail  2.000 as the settings say, "),
+    ] {
+        let told = told(bias);
+        assert!(told.starts_with(expected), "{told}");
+    }
+}

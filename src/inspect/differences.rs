@@ -37,6 +37,9 @@ impl Explanation {
             }
         };
         compare("samples", samples(self), samples(b));
+        if let Some([mine, other]) = self.places(b) {
+            compare("their places", mine, other);
+        }
         let filter = |of: &Self| {
             let wide = of.resolve.around.as_ref();
             wide.map_or("box".to_owned(), |wide| {
@@ -74,6 +77,20 @@ impl Explanation {
         }
         found.extend(by_what(&textures));
         found
+    }
+
+    /// Where the first sample that lies elsewhere lies; `None` where all lie alike, or there are not equally many.
+    fn places(&self, b: &Self) -> Option<[String; 2]> {
+        if self.exact || b.exact || self.samples.len() != b.samples.len() {
+            return None;
+        }
+        let mut pairs = self.samples.iter().zip(&b.samples).zip(1..);
+        let is_elsewhere = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > 1e-6;
+        let ((mine, other), sample) = pairs.find(|((mine, other), _)| is_elsewhere([mine.position, other.position]))?;
+        Some([mine, other].map(|of| {
+            let [x, y] = of.position.map(|at| number((at * 1000.0).round() / 1000.0));
+            format!("sample {sample} at {x}, {y}")
+        }))
     }
 
     /// Both means in one unit: light and stored values are two, and there the mean is told as it is stored. `None` where these

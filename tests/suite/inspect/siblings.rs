@@ -1,6 +1,7 @@
 //! Triangles of one element in two explanations: each is compared with its like, and all of them with the element as a whole.
 
 use rasterscope::inspect::{Explanation, Shape};
+use rasterscope::raster::SamplePattern;
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 
@@ -48,6 +49,35 @@ fn triangles_of_one_element_are_told_apart() {
     let covers: Vec<[Option<u32>; 2]> = covers.map(|row| [of_64(&row.a), of_64(&row.b)]).collect();
     assert_eq!(covers, expected, "{told:?}");
     assert!(few.differences(&few).is_empty(), "nothing differs from itself");
+}
+
+#[test]
+fn samples_that_lie_elsewhere_are_a_difference() {
+    let scene = gallery_scene("basic/test4.svg");
+    let with = |pattern| RenderSettings {
+        pattern,
+        ..by(Rules::Standard, 16)
+    };
+    let [grid, scattered] =
+        [SamplePattern::Grid, SamplePattern::Hammersley].map(|pattern| explained(&scene, &with(pattern), SIZE, PIXEL));
+    let differences = grid.differences(&scattered);
+    let places = differences
+        .iter()
+        .find(|row| row.what == "their places")
+        .expect("a row");
+    assert_eq!(places.a, "sample 1 at 0.125, 0.125");
+    let [x, y] = scattered.samples[0].position;
+    let told: Vec<f64> = places.b["sample 1 at ".len()..]
+        .split(", ")
+        .flat_map(str::parse)
+        .collect();
+    assert!(
+        (told[0] - x).abs() < 0.001 && (told[1] - y).abs() < 0.001,
+        "{places:?}: {x}, {y}"
+    );
+    let fewer = explained(&scene, &by(Rules::Standard, 4), SIZE, PIXEL);
+    let is_told = grid.differences(&fewer).iter().any(|row| row.what == "their places");
+    assert!(!is_told, "there are others");
 }
 
 #[test]

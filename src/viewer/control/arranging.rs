@@ -90,7 +90,7 @@ impl Hand<'_> {
     /// Takes back what the room for an explanation made of the view in the frames of another arrangement.
     fn take_back_room_for_explanation(&mut self, layout: &WindowLayout) {
         if let Some(views) = self.inspector.magnifier.kept_view.take() {
-            self.scene_list.look_back(layout, views);
+            self.scene_list.look_back(layout.frame_size(), views);
         }
     }
 

@@ -212,7 +212,10 @@ impl Hand<'_> {
             self.keep_view_of_pin(&before, &now);
         }
         if let Some(views) = self.inspector.magnifier.kept_view.take_if(|_| !asks) {
-            self.scene_list.look_back(&self.layout(), views);
+            let layout = self.layout();
+            self.scene_list.look_back(layout.frame_size(), views);
+            // The window may have another size than when the view was left.
+            self.scene_list.follow_free_part(&layout);
         }
     }
 

@@ -34,14 +34,11 @@ impl SceneList {
         }
     }
 
-    /// Takes a view back that was set in place of another, unless it was changed since. One that no hand had moved fits the part
-    /// of the window that is free now.
-    pub(in crate::viewer) fn look_back(&mut self, layout: &WindowLayout, [first, set]: [Camera; 2]) {
-        let part = layout.free_part();
-        self.look(layout.frame_size(), |camera, context| {
+    /// Takes a view back that was set in place of another, unless it was changed since.
+    pub(in crate::viewer) fn look_back(&mut self, frame: [u32; 2], [first, set]: [Camera; 2]) {
+        self.look(frame, |camera, _| {
             if *camera == set {
                 *camera = first;
-                camera.follow(part, context);
             }
         });
     }

@@ -200,42 +200,42 @@ pub(super) const PIXELS: &[ValueNote] = &[
     filter(
         "tent",
         "Weighs samples up to a pixel away, less the farther they are",
-        "about three times the time of the box at 16 samples, and blurs a little; it never rings",
+        "about three times the time of the box at 16 samples on the grid, and blurs a little; it never rings",
     ),
     filter(
         "gaussian",
         "Weighs samples up to 1.5 pixels away by a bell curve",
-        "about three times the time of the box at 16 samples, and blurs; it never rings",
+        "about three times the time of the box at 16 samples on the grid, and blurs; it never rings",
     ),
     filter(
         "b-spline",
         "Weighs samples up to two pixels away by a cubic bell: the fewest aliases of all",
-        "about three times the time of the box at 16 samples, and blurs most; it never rings",
+        "about three times the time of the box at 16 samples on the grid, and blurs most; it never rings",
     ),
     filter(
         "catmull-rom",
         "Weighs samples up to two pixels away, some below zero: a sharp cubic",
-        "about three times the time of the box at 16 samples, and rings at edges",
+        "about three times the time of the box at 16 samples on the grid, and rings at edges",
     ),
     filter(
         "mitchell",
         "Weighs samples up to two pixels away, some below zero: a cubic between blur and ringing",
-        "about three times the time of the box at 16 samples, and blurs and rings a little",
+        "about three times the time of the box at 16 samples on the grid, and blurs and rings a little",
     ),
     filter(
         "lanczos2",
         "A windowed sinc up to two pixels away: as sharp as Catmull-Rom's",
-        "about three times the time of the box at 16 samples, and rings at edges",
+        "about three times the time of the box at 16 samples on the grid, and rings at edges",
     ),
     filter(
         "lanczos3",
         "A windowed sinc up to three pixels away: the sharpest",
-        "about four times the time of the box at 16 samples, and rings most",
+        "about four times the time of the box at 16 samples on the grid, and rings most",
     ),
     filter(
         "blackman-harris",
         "A window up to 1.5 pixels away, close to a Gaussian that ends smoothly",
-        "about three times the time of the box at 16 samples, and blurs a little; it never rings",
+        "about three times the time of the box at 16 samples on the grid, and blurs a little; it never rings",
     ),
     ValueNote::new(
         "resolve",

@@ -366,7 +366,8 @@ mod tests {
             }
             Ok(())
         })
-        .size_min(1024);
+        .size_min(1024)
+        .budget_ms(1000);
         assert!(count > 20 && worst < 0.25 / 255.0, "{worst} of {count} pixels");
     }
 

@@ -1,10 +1,10 @@
-//! Puts the values of pixels that were shaded together where they belong.
+//! Puts the values of pixels that were shaded together where they belong. Most runs are a few pixels long, for which a call would take
+//! longer than the copy.
+
+#![expect(clippy::inline_always, reason = "a piece of a known length is copied in registers")]
 
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::PixelRun;
-
-/// Pixels that are copied at once. Most runs are a few pixels long, for which a call would take longer than the copy.
-const TOGETHER: usize = 8;
 
 /// Puts values into runs of pixels, one after the other. Where all pixels of a run are alike (`is_level`) there is one for each.
 pub(super) fn put_runs(runs: &[PixelRun], is_level: bool, mut values: &[u32], block: &mut PixelBlock<'_>) {
@@ -16,16 +16,26 @@ pub(super) fn put_runs(runs: &[PixelRun], is_level: bool, mut values: &[u32], bl
             line.fill(of_run[0]);
             continue;
         }
-        let (eights, rest) = line.as_chunks_mut::<TOGETHER>();
-        let (of_eights, of_rest) = of_run.as_chunks::<TOGETHER>();
-        for (pixels, values) in eights.iter_mut().zip(of_eights) {
-            *pixels = *values;
-        }
-        for (i, value) in of_rest.iter().enumerate() {
-            // Not a loop over both, which would become a call again.
-            rest[i % TOGETHER] = *value;
+        // The longest piece that fits, again and again, and once more up to the end.
+        if !(copy::<8>(of_run, line) || copy::<4>(of_run, line) || copy::<2>(of_run, line))
+            && let ([pixel], [value]) = (line, of_run)
+        {
+            *pixel = *value;
         }
     }
+}
+
+/// Copies pieces of `N` pixels, the last two of which may overlap; `false` where there is not even one.
+#[inline(always)]
+fn copy<const N: usize>(values: &[u32], pixels: &mut [u32]) -> bool {
+    let (Some(last), Some(to_last)) = (values.last_chunk::<N>(), pixels.last_chunk_mut::<N>()) else {
+        return false;
+    };
+    *to_last = *last;
+    for (pixels, values) in pixels.as_chunks_mut::<N>().0.iter_mut().zip(values.as_chunks::<N>().0) {
+        *pixels = *values;
+    }
+    true
 }
 
 #[cfg(test)]

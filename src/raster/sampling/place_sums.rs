@@ -61,13 +61,15 @@ impl PlaceSums {
         self.places.map(|sum| f64::from(sum) / f64::from(self.count.max(1)))
     }
 
-    /// Of those of up to 64 samples that a mask names, the first one by its lowest bit.
+    /// Of those of up to 64 samples that a mask names, the first one by its lowest bit; without `SQUARES` these are zero.
     #[inline(always)]
-    pub(crate) fn of_masked<S: Simd>(simd: S, places: &[Position], mask: u64) -> Self {
+    pub(crate) fn of_masked<S: Simd, const SQUARES: bool>(simd: S, places: &[Position], mask: u64) -> Self {
         let mut sums = Self::default();
         for (first, places) in (0..u64::BITS).step_by(TOGETHER).zip(places.chunks(TOGETHER)) {
             let bits = mask >> first & ((1 << TOGETHER) - 1);
-            sums = sums.plus(Self::of_sixteen(simd, &sixteen(places), bits));
+            if bits != 0 {
+                sums = sums.plus(Self::of_sixteen::<S, SQUARES>(simd, &sixteen(places), bits));
+            }
         }
         sums
     }
@@ -78,7 +80,7 @@ impl PlaceSums {
         let mut sums = Self::default();
         for places in places.chunks(TOGETHER) {
             let bits = (1 << places.len()) - 1;
-            sums = sums.plus(Self::of_sixteen(simd, &sixteen(places), bits));
+            sums = sums.plus(Self::of_sixteen::<S, true>(simd, &sixteen(places), bits));
         }
         sums
     }
@@ -114,22 +116,27 @@ impl PlaceSums {
     }
 
     #[inline(always)]
-    fn of_sixteen<S: Simd>(simd: S, places: &[Position; TOGETHER], bits: u64) -> Self {
+    fn of_sixteen<S: Simd, const SQUARES: bool>(simd: S, places: &[Position; TOGETHER], bits: u64) -> Self {
         let (first, second) = u8x32::from_slice(simd, places.as_flattened()).widen();
         let all: u32x16<S> = first.combine(second).bitcast();
         let named = mask32x16::from_bitmask(simd, bits).select(all, u32x16::splat(simd, 0));
-        let columns: i16x32<S> = (named & 0xFFFF).bitcast();
-        let rows: i16x32<S> = (named >> 16).bitcast();
         // Sixteen columns of a byte fit the lower half.
         let both = sum(named.bitcast());
-        Self {
-            count: bits.count_ones(),
-            places: [both & 0xFFFF, both >> 16],
-            squares: [
+        let squares = if SQUARES {
+            let columns: i16x32<S> = (named & 0xFFFF).bitcast();
+            let rows: i16x32<S> = (named >> 16).bitcast();
+            [
                 sum(columns.pairwise_dot_product(columns)),
                 sum(columns.pairwise_dot_product(rows)),
                 sum(rows.pairwise_dot_product(rows)),
-            ],
+            ]
+        } else {
+            [0; 3]
+        };
+        Self {
+            count: bits.count_ones(),
+            places: [both & 0xFFFF, both >> 16],
+            squares,
         }
     }
 }
@@ -220,7 +227,7 @@ mod tests {
                 });
                 assert_eq!(table.of(first, mask), expected, "by the table: {mask:b} of {places:?}");
                 for (name, level) in simd::tested() {
-                    let found = dispatch!(level, simd => PlaceSums::of_masked(simd, places, mask));
+                    let found = dispatch!(level, simd => PlaceSums::of_masked::<_, true>(simd, places, mask));
                     assert_eq!(found, expected, "{name}: {mask:b} of {places:?}");
                 }
             }

@@ -214,6 +214,25 @@ impl<S: Simd> PlaceSpreads<S> {
         }
     }
 
+    /// Of pixels whose samples all lie at the same places, which add up to this.
+    #[inline(always)]
+    pub(super) fn of_each(simd: S, sums: &PlaceSums) -> Self {
+        let number = |value: u32| f32x16::float_from(i32x16::splat(simd, value.cast_signed()));
+        let count = number(sums.count);
+        let per_sample = f32x16::splat(simd, 1.0) / count.max(f32x16::splat(simd, 1.0));
+        let [x, y] = [number(sums.places[0]) * per_sample, number(sums.places[1]) * per_sample];
+        let [xx, xy, yy] = sums.squares;
+        Self {
+            counts: count,
+            means: [x, y],
+            squares: [
+                number(xx) * per_sample - x * x,
+                number(xy) * per_sample - x * y,
+                number(yy) * per_sample - y * y,
+            ],
+        }
+    }
+
     /// Of values that change so much from one point of the lattice to the next, across and down, the mean squares of how far they are
     /// from their mean.
     #[inline(always)]

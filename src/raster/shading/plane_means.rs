@@ -74,12 +74,16 @@ fn means_with<S: Simd>(
     values: &mut [u32],
 ) {
     let is_linear = matches!(mean, SampleMean::Linear(_));
-    let all = PlaceSums::of_all(simd, placed.inside(0));
+    let same = if placed.are_same() {
+        PlaceSums::of_all(simd, placed.inside)
+    } else {
+        PlaceSums::default()
+    };
     // Of samples whose places differ from pixel to pixel, the lattice's first point.
-    let known = if placed.are_same() { all.means() } else { [0.0; 2] };
+    let known = same.means();
     let reach = f64::from(placed.pixels.grid.side - 1);
     let near = TintedPlanes::new(colors.planes, placed.tints).near(placed.pixels, known, reach);
-    let mut spread = PlaceSpreads::new(simd, &[all; PIXELS]);
+    let mut spread = PlaceSpreads::of_each(simd, &same);
     for (block, values) in values.chunks_mut(PIXELS).enumerate() {
         let range = block * PIXELS..block * PIXELS + values.len();
         let means = if placed.are_same() {

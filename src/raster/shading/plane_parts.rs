@@ -30,19 +30,25 @@ impl PlaneColors<'_> {
     pub(super) fn part_bounds(self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) {
         let reach = f64::from(parts.pixels.grid.side - 1);
         let near = &TintedPlanes::new(self.planes, parts.tints).near(parts.pixels, [0.0; 2], reach);
-        dispatch!(simd::level(), simd => bounds_with(simd, near, parts, mean, bounds));
+        match mean {
+            SampleMean::Stored(_) => {
+                dispatch!(simd::level(), simd => bounds_with::<_, false>(simd, near, parts, mean, bounds));
+            }
+            SampleMean::Linear(_) => {
+                dispatch!(simd::level(), simd => bounds_with::<_, true>(simd, near, parts, mean, bounds));
+            }
+        }
     }
 }
 
 #[inline(always)]
-fn bounds_with<S: Simd>(
+fn bounds_with<S: Simd, const IS_LINEAR: bool>(
     simd: S,
     near: &NearPlanes,
     parts: PlacedParts<'_>,
     mean: &SampleMean,
     bounds: &mut [SumBounds],
 ) {
-    let is_linear = matches!(mean, SampleMean::Linear(_));
     for (block, bounds) in bounds.chunks_mut(PIXELS).enumerate() {
         let range = block * PIXELS..block * PIXELS + bounds.len();
         let mut sums = [PlaceSums::default(); PIXELS];
@@ -52,7 +58,7 @@ fn bounds_with<S: Simd>(
         let (mut ends, mut certain) = ([[[0; PIXELS]; 2]; 3], u64::MAX);
         for (k, ends) in ends.iter_mut().enumerate() {
             let values = near.spread(k, at, Some(spread.means));
-            let ([least, most], of_channel) = if is_linear {
+            let ([least, most], of_channel) = if IS_LINEAR {
                 values.ends_of_light(simd, [spread.squares_along(near.dx[k], near.dy[k]); 2])
             } else {
                 values.ends(simd)

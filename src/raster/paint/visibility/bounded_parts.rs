@@ -16,8 +16,7 @@ pub(super) struct BoundedParts {
     of_pixels: Vec<SumBounds>,
     /// The surfaces of which all parts are bounded, in order.
     surfaces: Vec<SurfaceId>,
-    /// Of the fragments at work: their masks, and what is found.
-    masks: Vec<(u16, u64)>,
+    /// What is found of the fragments at work.
     found: Vec<SumBounds>,
     /// Whether each pixel is open.
     is_open: Vec<bool>,
@@ -40,14 +39,11 @@ impl BoundedParts {
         surface: SurfaceId,
         fragments: &[Fragment],
         pixels: usize,
-        find: impl FnOnce(&[(u16, u64)], &mut [SumBounds]) -> bool,
+        find: impl FnOnce(&mut [SumBounds]) -> bool,
     ) -> bool {
-        self.masks.clear();
-        self.masks
-            .extend(fragments.iter().map(|Fragment { first, mask, .. }| (*first, *mask)));
         self.found.clear();
         self.found.resize(fragments.len(), SumBounds::default());
-        if !find(&self.masks, &mut self.found) {
+        if !find(&mut self.found) {
             return false;
         }
         if self.surfaces.last() != Some(&surface) {

@@ -22,7 +22,7 @@ use crate::simd::{self, PACKED};
 use crate::texture::SampleGrid;
 
 /// Pixels that are shaded together, and some more: so many that their samples stay in a core's cache.
-pub(super) const TOGETHER: usize = 64;
+pub(super) const TOGETHER: usize = 256;
 
 /// What samples are averaged with, and memory.
 #[derive(Debug)]
@@ -61,6 +61,8 @@ pub(super) struct SampleShades {
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
     pub(super) inside: Vec<Position>,
     random: Vec<u64>,
+    /// Where the samples of the pixels of a tile lie that several surfaces share, one pixel after the other, once anybody asked.
+    pub(super) shared: Vec<Position>,
     /// The first points of the pixels of fragments.
     corners: Vec<[u16; 2]>,
     /// The masks of fragments, and what red, green and blue of their samples add up to.
@@ -195,47 +197,61 @@ impl SampleShades {
         Some(samples)
     }
 
-    /// Between what the samples of parts of pixels add up to, each at a place of the tile and with a mask, where there is a way to know
-    /// without shading them; whether there is one.
+    /// Between what the samples of fragments add up to, of pixels at these places of the tile, where there is a way to know without
+    /// shading them; whether there is one.
     pub(super) fn bound(
         &mut self,
         shader: &SurfaceShader<'_>,
         TileSamples { positions, mean, grid }: TileSamples<'_>,
-        (places, masks): (impl Iterator<Item = [u16; 2]>, &[(u16, u64)]),
+        (fragments, places): (&[Fragment], &[[u16; 2]]),
         bounds: &mut [SumBounds],
     ) -> bool {
         let Some((lowest, tints)) = shader.tinted() else {
             return false;
         };
         let parts = || {
-            self.whole.clear();
-            self.whole.extend(places);
-            self.sum_places(positions, grid, masks);
+            let shades = self;
+            shades.whole.clear();
+            shades
+                .whole
+                .extend(fragments.iter().map(|part| places[part.pixel as usize]));
+            if !positions.are_same() && shades.shared.is_empty() {
+                let pixels = places.iter().map(|place| pixel_of(*place, grid));
+                positions.add(pixels, &mut shades.random, &mut shades.shared);
+            }
+            shades.sum_places(positions, fragments, matches!(mean, SampleMean::Linear(_)));
             let pixels = Pixels {
                 grid,
-                places: &self.whole,
+                places: &shades.whole,
             };
             PlacedParts {
                 pixels,
-                sums: &self.sums,
+                sums: &shades.sums,
                 tints,
             }
         };
         lowest.part_bounds(parts, mean, bounds)
     }
 
-    /// Finds what the places of some samples of each pixel of `whole` add up to.
-    fn sum_places(&mut self, positions: &SamplePositions, grid: SampleGrid, masks: &[(u16, u64)]) {
+    /// Finds what the places of the samples of fragments add up to, and their squares where these matter.
+    fn sum_places(&mut self, positions: &SamplePositions, fragments: &[Fragment], squares: bool) {
         self.sums.clear();
         if positions.are_same() {
-            let sums = masks
+            let sums = fragments
                 .iter()
-                .map(|(first, mask)| self.by_mask.of(usize::from(*first), *mask));
+                .map(|Fragment { first, mask, .. }| self.by_mask.of(usize::from(*first), *mask));
             self.sums.extend(sums);
+            return;
+        }
+        let (sums, inside) = (&mut self.sums, &self.shared);
+        let parts = fragments.iter().map(|Fragment { first, pixel, mask }| {
+            let first = *pixel as usize * positions.count() + usize::from(*first);
+            (&inside[first..(first + MASK_BITS).min(inside.len())], *mask)
+        });
+        if squares {
+            dispatch!(simd::level(), simd => add_sums::<_, true>(simd, parts, sums));
         } else {
-            self.place(positions, grid);
-            let (sums, inside) = (&mut self.sums, self.inside.chunks_exact(positions.count()));
-            dispatch!(simd::level(), simd => add_sums(simd, inside.zip(masks), sums));
+            dispatch!(simd::level(), simd => add_sums::<_, false>(simd, parts, sums));
         }
     }
 
@@ -266,7 +282,7 @@ impl SampleShades {
                 return taken;
             }
             if !repeats {
-                self.whole.extend(run.places());
+                PixelRun::add_places(&[*run], &mut self.whole);
             } else if self.whole.last().is_none_or(|last| last[1] != run.row) {
                 self.whole.push(run.first());
             }
@@ -357,15 +373,16 @@ fn add_stored(sum: &mut [u32; 4], [r, g, b]: [u64; 3], count: u32) {
     }
 }
 
-/// Adds what the places of the samples of parts add up to, by those of all samples of their pixels.
+/// Adds what the places of the samples of parts add up to, by those of up to [`MASK_BITS`] samples, the first one by the lowest bit
+/// of a mask.
 #[inline(always)]
-fn add_sums<'p, S: Simd>(
+fn add_sums<'p, S: Simd, const SQUARES: bool>(
     simd: S,
-    parts: impl Iterator<Item = (&'p [Position], &'p (u16, u64))>,
+    parts: impl Iterator<Item = (&'p [Position], u64)>,
     sums: &mut Vec<PlaceSums>,
 ) {
-    for (inside, (first, mask)) in parts {
-        sums.push(PlaceSums::of_masked(simd, &inside[usize::from(*first)..], *mask));
+    for (inside, mask) in parts {
+        sums.push(PlaceSums::of_masked::<S, SQUARES>(simd, inside, mask));
     }
 }
 

@@ -44,6 +44,7 @@ impl VisibilityPainter<'_> {
             ..
         } = unresolved;
         parts.clear();
+        shades.shared.clear();
         let (count, grid) = (positions.count(), context.samples_from(origin));
         let samples = TileSamples { positions, mean, grid };
         let mut shared = SharedPixels { places, sums, lights };
@@ -67,9 +68,8 @@ impl VisibilityPainter<'_> {
                 runs = others;
             }
             for fragments in fragments.chunks(TOGETHER) {
-                let is_bounded = parts.add(surface, fragments, shared.places.len(), |masks, bounds| {
-                    let places = fragments.iter().map(|part| shared.places[part.pixel as usize]);
-                    shades.bound(&shader, samples, (places, masks), bounds)
+                let is_bounded = parts.add(surface, fragments, shared.places.len(), |bounds| {
+                    shades.bound(&shader, samples, (fragments, shared.places), bounds)
                 });
                 let shaded = if is_bounded {
                     fragments.iter().map(|part| part.mask.count_ones() as usize).sum()

@@ -22,5 +22,6 @@ mod put_runs;
 pub(in crate::raster) mod recorder;
 pub(in crate::raster) mod sample_colors;
 mod shade_once;
+mod short_runs;
 pub(in crate::raster) mod visibility;
 pub(in crate::raster) mod wide;

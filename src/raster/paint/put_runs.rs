@@ -1,9 +1,7 @@
-//! Puts the values of pixels that were shaded together where they belong. Most runs are a few pixels long, for which a call would take
-//! longer than the copy.
-
-#![expect(clippy::inline_always, reason = "a piece of a known length is copied in registers")]
+//! Puts the values of pixels that were shaded together where they belong.
 
 use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::short_runs::{copy_run, fill_run};
 use crate::raster::shading::context::PixelRun;
 
 /// Puts values into runs of pixels, one after the other. Where all pixels of a run are alike (`is_level`) there is one for each.
@@ -13,29 +11,11 @@ pub(super) fn put_runs(runs: &[PixelRun], is_level: bool, mut values: &[u32], bl
         let (of_run, others) = values.split_at(if is_level { 1 } else { run.len() });
         values = others;
         if is_level {
-            line.fill(of_run[0]);
+            fill_run(line, of_run[0]);
             continue;
         }
-        // The longest piece that fits, again and again, and once more up to the end.
-        if !(copy::<8>(of_run, line) || copy::<4>(of_run, line) || copy::<2>(of_run, line))
-            && let ([pixel], [value]) = (line, of_run)
-        {
-            *pixel = *value;
-        }
+        copy_run(of_run, line);
     }
-}
-
-/// Copies pieces of `N` pixels, the last two of which may overlap; `false` where there is not even one.
-#[inline(always)]
-fn copy<const N: usize>(values: &[u32], pixels: &mut [u32]) -> bool {
-    let (Some(last), Some(to_last)) = (values.last_chunk::<N>(), pixels.last_chunk_mut::<N>()) else {
-        return false;
-    };
-    *to_last = *last;
-    for (pixels, values) in pixels.as_chunks_mut::<N>().0.iter_mut().zip(values.as_chunks::<N>().0) {
-        *pixels = *values;
-    }
-    true
 }
 
 #[cfg(test)]

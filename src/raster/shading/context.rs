@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, u16x16, u32x8};
+
 use crate::color::{Premultiplied16, ResolveSpace, Resolver};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::resolve::SizedFilter;
@@ -9,6 +12,7 @@ use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::{SampleRate, ShadingRate};
+use crate::simd;
 use crate::texture::{SampleGrid, SamplingSettings};
 
 /// What shading needs to know besides the triangle.
@@ -145,19 +149,7 @@ impl PixelRun {
 
     /// Adds the places of the pixels of all these runs, one after the other.
     pub(crate) fn add_places(runs: &[Self], places: &mut Vec<[u16; 2]>) {
-        /// Most runs are so short that it takes longer to count than to take back those that are too many.
-        const TOGETHER: u16 = 8;
-        for run in runs {
-            let end = places.len() + run.len();
-            for first in run.columns().step_by(usize::from(TOGETHER)) {
-                let mut eight = [[0, run.row]; TOGETHER as usize];
-                for (place, i) in eight.iter_mut().zip(0..TOGETHER) {
-                    place[0] = first.wrapping_add(i);
-                }
-                places.extend_from_slice(&eight);
-            }
-            places.truncate(end);
-        }
+        dispatch!(simd::level(), simd => add_places(simd, runs, places));
     }
 
     /// The places of the pixels of all these runs.
@@ -172,6 +164,34 @@ impl PixelRun {
     pub(crate) fn first(self) -> [u16; 2] {
         [self.start, self.row]
     }
+}
+
+/// Pixels of a run whose places are found together: most runs are so short that it takes longer to count than to take back those that
+/// are too many.
+const TOGETHER: usize = 8;
+
+/// [`PixelRun::add_places`].
+#[inline(always)]
+fn add_places<S: Simd>(simd: S, runs: &[PixelRun], places: &mut Vec<[u16; 2]>) {
+    const STEPS: [u32; TOGETHER] = [0, 1, 2, 3, 4, 5, 6, 7];
+    const NEXT: u32 = STEPS[TOGETHER - 1] + 1;
+    let mut next = places.len();
+    let count: usize = runs.iter().map(|run| run.len()).sum();
+    let end = next + count;
+    places.resize(end + TOGETHER, [0; 2]);
+    for PixelRun { row, start, end } in runs {
+        let last = next + usize::from(end - start);
+        let mut eight = u32x8::simd_from(simd, STEPS) + (u32::from(*start) | u32::from(*row) << 16);
+        while next < last {
+            if let Some(places) = places[next..].first_chunk_mut::<TOGETHER>() {
+                eight.bitcast::<u16x16<S>>().store_slice(places.as_flattened_mut());
+            }
+            eight += NEXT;
+            next += TOGETHER;
+        }
+        next = last;
+    }
+    places.truncate(end);
 }
 
 impl<'p> PlacedPixels<'p> {

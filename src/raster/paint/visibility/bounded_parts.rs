@@ -33,27 +33,31 @@ impl BoundedParts {
         self.surfaces.is_empty()
     }
 
-    /// Has `find` bound fragments of a surface, of a tile in which so many pixels wait; whether it can.
+    /// Has `find` bound fragments of a surface, of a tile in which so many pixels wait; how many samples they have, if it can.
     pub(super) fn add(
         &mut self,
         surface: SurfaceId,
         fragments: &[Fragment],
         pixels: usize,
         find: impl FnOnce(&mut [SumBounds]) -> bool,
-    ) -> bool {
-        self.found.clear();
-        self.found.resize(fragments.len(), SumBounds::default());
-        if !find(&mut self.found) {
-            return false;
+    ) -> Option<usize> {
+        if self.found.len() < fragments.len() {
+            self.found.resize(fragments.len(), SumBounds::default());
+        }
+        let found = &mut self.found[..fragments.len()];
+        if !find(found) {
+            return None;
         }
         if self.surfaces.last() != Some(&surface) {
             self.surfaces.push(surface);
         }
         self.of_pixels.resize(pixels, SumBounds::default());
-        for (Fragment { pixel, .. }, bounds) in fragments.iter().zip(&self.found) {
+        let mut samples = 0;
+        for (Fragment { pixel, .. }, bounds) in fragments.iter().zip(found) {
             self.of_pixels[*pixel as usize] += *bounds;
+            samples += bounds.count as usize;
         }
-        true
+        Some(samples)
     }
 
     /// Puts the pixels that are certain, once all that is not bounded was added to their sums or lights; whether any is not.

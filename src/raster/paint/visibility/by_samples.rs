@@ -277,17 +277,23 @@ impl SampleShades {
     /// where all of a row are alike (`repeats`); how many runs.
     pub(super) fn take(&mut self, runs: &[PixelRun], repeats: bool) -> usize {
         self.whole.clear();
-        for (taken, run) in runs.iter().enumerate() {
-            if self.whole.len() >= TOGETHER {
-                return taken;
+        let (mut taken, mut pixels) = (0, 0);
+        for run in runs {
+            if pixels >= TOGETHER {
+                break;
             }
+            taken += 1;
             if !repeats {
-                PixelRun::add_places(&[*run], &mut self.whole);
+                pixels += run.len();
             } else if self.whole.last().is_none_or(|last| last[1] != run.row) {
                 self.whole.push(run.first());
+                pixels += 1;
             }
         }
-        runs.len()
+        if !repeats {
+            PixelRun::add_places(&runs[..taken], &mut self.whole);
+        }
+        taken
     }
 
     /// Puts the pixels of these runs, once they are shaded.

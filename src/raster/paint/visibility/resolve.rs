@@ -10,6 +10,7 @@ use crate::color::{Light, LightResolver, Premultiplied16, Resolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::method::Rounding;
 use crate::raster::paint::put_runs::put_runs;
+use crate::raster::paint::short_runs::fill_run;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::fragments::Fragments;
 use crate::raster::paint::visibility::packed::{lanes, splat};
@@ -264,7 +265,7 @@ impl VisibilityPainter<'_> {
                 Run::Whole(surface) => {
                     let shown = surfaces.get(surface);
                     if shown.shaded.is_none() {
-                        line[range].fill(shown.pixel);
+                        fill_run(&mut line[range], shown.pixel);
                     } else {
                         unresolved.whole(surface, row, range);
                     }

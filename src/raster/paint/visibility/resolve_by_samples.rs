@@ -68,14 +68,10 @@ impl VisibilityPainter<'_> {
                 runs = others;
             }
             for fragments in fragments.chunks(TOGETHER) {
-                let is_bounded = parts.add(surface, fragments, shared.places.len(), |bounds| {
+                let bounded = parts.add(surface, fragments, shared.places.len(), |bounds| {
                     shades.bound(&shader, samples, (fragments, shared.places), bounds)
                 });
-                let shaded = if is_bounded {
-                    fragments.iter().map(|part| part.mask.count_ones() as usize).sum()
-                } else {
-                    shades.add_fragments(&shader, samples, fragments, &mut shared)
-                };
+                let shaded = bounded.unwrap_or_else(|| shades.add_fragments(&shader, samples, fragments, &mut shared));
                 self.samples_shaded += shader.evaluations(shaded as u64, fragments.len());
             }
         }

@@ -1,6 +1,7 @@
 //! Opaque paint: lets covered samples show a surface.
 
 use crate::raster::coverage::covered::Covered;
+use crate::raster::paint::short_runs::fill_run;
 use crate::raster::paint::visibility::buffer::{VisibilityBuffer, offset};
 use crate::raster::paint::visibility::packed::{PER_WORD, of_two, splat, spread};
 use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfaces};
@@ -21,7 +22,7 @@ impl VisibilityBuffer {
         match covered {
             Covered::Whole(xs) => {
                 let xs = self.columns(xs);
-                self.whole[y][xs].fill(surface);
+                fill_run(&mut self.whole[y][xs], surface);
             }
             Covered::Part(x, mask) => {
                 let x = offset(self.rect.x.start, x);

@@ -20,7 +20,7 @@ use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
 use crate::raster::shading::kind::Shade;
-use crate::raster::shading::near_planes::{NearPlanes, PlaceSpreads, TintedPlanes, number};
+use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes, number};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -58,9 +58,7 @@ impl PlaneColors<'_> {
             return false;
         };
         let is_linear = matches!(mean, SampleMean::Linear(_));
-        let reach = f64::from(pixels.pixels.grid.side * (2 * pixels.margin + 1) - 1);
-        let near = &shown.near(pixels.pixels, [middle; 2], reach);
-        dispatch!(simd::level(), simd => bounded_with(simd, near, pixels.pixels.places, is_linear, (values, open)));
+        dispatch!(simd::level(), simd => bounded_with(simd, &shown, (pixels, middle), is_linear, (values, open)));
         true
     }
 }
@@ -125,11 +123,14 @@ fn means_with<S: Simd>(
 #[inline(always)]
 fn bounded_with<S: Simd>(
     simd: S,
-    near: &NearPlanes,
-    places: &[[u16; 2]],
+    shown: &TintedPlanes,
+    (bounded, middle): (BoundedPixels<'_>, f64),
     is_linear: bool,
     (values, open): (&mut [u32], &mut Vec<usize>),
 ) {
+    let Pixels { grid, places } = bounded.pixels;
+    let reach = f64::from(grid.side * (2 * bounded.margin + 1) - 1);
+    let near = shown.near(bounded.pixels, [middle; 2], reach);
     let blocks = values.chunks_mut(PIXELS).zip(places.chunks(PIXELS));
     for (block, (values, places)) in blocks.enumerate() {
         let (pixels, certain) = near.pixels(

@@ -19,23 +19,23 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::color::{PIXELS, SampleMean, SumBounds, sums_at};
+use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::PlacedParts;
-use crate::raster::shading::near_planes::{NearPlanes, PlaceSpreads, TintedPlanes};
+use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes};
 use crate::raster::shading::plane_means::PlaneColors;
 use crate::simd;
 
 impl PlaneColors<'_> {
     /// Between what the samples of each part add up to.
     pub(super) fn part_bounds(self, parts: PlacedParts<'_>, mean: &SampleMean, bounds: &mut [SumBounds]) {
-        let reach = f64::from(parts.pixels.grid.side - 1);
-        let near = &TintedPlanes::new(self.planes, parts.tints).near(parts.pixels, [0.0; 2], reach);
+        let planes = self.planes;
         match mean {
             SampleMean::Stored(_) => {
-                dispatch!(simd::level(), simd => bounds_with::<_, false>(simd, near, parts, mean, bounds));
+                dispatch!(simd::level(), simd => bounds_with::<_, false>(simd, planes, parts, mean, bounds));
             }
             SampleMean::Linear(_) => {
-                dispatch!(simd::level(), simd => bounds_with::<_, true>(simd, near, parts, mean, bounds));
+                dispatch!(simd::level(), simd => bounds_with::<_, true>(simd, planes, parts, mean, bounds));
             }
         }
     }
@@ -44,11 +44,13 @@ impl PlaneColors<'_> {
 #[inline(always)]
 fn bounds_with<S: Simd, const IS_LINEAR: bool>(
     simd: S,
-    near: &NearPlanes,
+    planes: &Planes<3>,
     parts: PlacedParts<'_>,
     mean: &SampleMean,
     bounds: &mut [SumBounds],
 ) {
+    let reach = f64::from(parts.pixels.grid.side - 1);
+    let near = TintedPlanes::new(planes, parts.tints).near(parts.pixels, [0.0; 2], reach);
     for (block, bounds) in bounds.chunks_mut(PIXELS).enumerate() {
         let range = block * PIXELS..block * PIXELS + bounds.len();
         let mut sums = [PlaceSums::default(); PIXELS];

@@ -56,8 +56,9 @@ pub(super) struct SampleShades {
     /// Pixels of which all samples are shaded, and what becomes of them.
     pub(super) whole: Vec<[u16; 2]>,
     pub(super) pixels: Vec<u32>,
-    /// The numbers of those that depend on where exactly their samples lie.
+    /// The numbers of those that depend on where exactly their samples lie, and memory to shade these alone.
     pub(super) open: Vec<usize>,
+    apart: WholePixels,
     /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
     pub(super) inside: Vec<Position>,
     random: Vec<u64>,
@@ -71,6 +72,21 @@ pub(super) struct SampleShades {
     /// What the places of some samples add up to, where these are the same in every pixel; and those of the parts at work.
     by_mask: PlaceSumsByMask,
     sums: Vec<PlaceSums>,
+}
+
+/// Pixels of which all samples are shaded, and what becomes of them.
+#[derive(Debug, Default)]
+struct WholePixels {
+    whole: Vec<[u16; 2]>,
+    pixels: Vec<u32>,
+}
+
+impl WholePixels {
+    /// Changes places with those that are shaded.
+    fn swap(&mut self, shades: &mut SampleShades) {
+        std::mem::swap(&mut self.whole, &mut shades.whole);
+        std::mem::swap(&mut self.pixels, &mut shades.pixels);
+    }
 }
 
 impl BySamples {
@@ -335,15 +351,20 @@ impl SampleShades {
         if self.open.is_empty() {
             return true;
         }
+        // All pixels wait here while those that are open have their place.
+        let mut apart = std::mem::take(&mut self.apart);
         let open = std::mem::take(&mut self.open);
-        let rest = open.iter().map(|i| self.whole[*i]).collect();
-        let whole = std::mem::replace(&mut self.whole, rest);
-        let mut pixels = std::mem::replace(&mut self.pixels, vec![0; open.len()]);
+        apart.whole.clear();
+        apart.whole.extend(open.iter().map(|i| self.whole[*i]));
+        apart.pixels.clear();
+        apart.pixels.resize(open.len(), 0);
+        apart.swap(self);
         self.shade_all(shader, samples);
-        for (i, pixel) in open.iter().zip(&self.pixels) {
-            pixels[*i] = *pixel;
+        apart.swap(self);
+        for (i, pixel) in open.iter().zip(&apart.pixels) {
+            self.pixels[*i] = *pixel;
         }
-        (self.whole, self.pixels, self.open) = (whole, pixels, open);
+        (self.apart, self.open) = (apart, open);
         true
     }
 

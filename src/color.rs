@@ -31,7 +31,7 @@ pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
 pub use spaces::ColorSpace;
-pub(crate) use sum_bounds::{SumBounds, sums_at};
+pub(crate) use sum_bounds::{SumBounds, sums_between};
 pub(crate) use value_spread::{PIXELS, SpreadLimits, ValueLimits, ValueSpread};
 pub use weighted::WeightedSum;
 

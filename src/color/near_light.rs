@@ -39,7 +39,7 @@ const POWERS: [f32; 7] = [
     9.095_838e-4,
 ];
 /// Light is that near at least, in parts of all light.
-const LIGHT_OFF: f32 = 5.9e-6;
+pub(super) const LIGHT_OFF: f32 = 5.9e-6;
 /// What a sum of 32-bit floats loses with each term, in parts of all light, and then some.
 const SUM_OFF: f32 = 1.3e-7;
 
@@ -133,6 +133,15 @@ impl<'r> NearLight<'r> {
                 Rules::Standard | Rules::Float => 0.5,
                 Rules::Course => 0.0,
             },
+        }
+    }
+
+    /// The same of sums of light that is known but for how floats are rounded.
+    pub(crate) fn of_exact(resolver: &'r LightResolver) -> Self {
+        let near = Self::new(resolver);
+        Self {
+            off: near.off - LIGHT_OFF,
+            ..near
         }
     }
 

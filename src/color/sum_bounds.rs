@@ -14,10 +14,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, f64x8, u64x8};
 
+use super::light::ONE_LIGHT;
+use super::near_light::{LIGHT_OFF, near_light};
 use super::value_spread::PIXELS;
 use super::{Light, Premultiplied16, SampleMean};
-
-const ONE: f64 = Premultiplied16::ONE as f64;
 
 /// Between what red, green and blue of some opaque samples of a pixel add up to: stored values, or their light in parts of all
 /// light.
@@ -81,36 +81,41 @@ impl SumBounds {
     }
 }
 
-/// The sums of a channel over `counts` samples of [`PIXELS`] pixels whose means, or the value whose light is the mean of theirs, lie
-/// at such an end, in units of [`Premultiplied16`]; rounded down.
+/// Between what the sums of a channel over `counts` samples of [`PIXELS`] pixels lie whose means, or the values whose light is the mean of
+/// theirs, lie between such ends, in units of [`Premultiplied16`].
 #[inline(always)]
-pub(crate) fn sums_at<S: Simd>(simd: S, end: f32x16<S>, counts: f32x16<S>, mean: &SampleMean) -> [u64; PIXELS] {
-    let (ends, counts) = (end.widen(), counts.widen());
-    let mut sums = [0; PIXELS];
-    let (first, second) = sums.split_at_mut(PIXELS / 2);
-    first.copy_from_slice(&sums_of_half(simd, ends.0, counts.0, mean));
-    second.copy_from_slice(&sums_of_half(simd, ends.1, counts.1, mean));
-    sums
+pub(crate) fn sums_between<S: Simd>(
+    simd: S,
+    [least, most]: [f32x16<S>; 2],
+    counts: f32x16<S>,
+    mean: &SampleMean,
+) -> [[u64; PIXELS]; 2] {
+    match mean {
+        SampleMean::Stored(_) => [sums_at(simd, least, counts, 1.0), sums_at(simd, most, counts, 1.0)],
+        SampleMean::Linear(_) => [
+            sums_at(simd, light_at(simd, least) - LIGHT_OFF, counts, ONE_LIGHT),
+            sums_at(simd, light_at(simd, most) + LIGHT_OFF, counts, ONE_LIGHT),
+        ],
+    }
 }
 
+/// The light of values, in units of [`Premultiplied16`], but for [`LIGHT_OFF`]; nothing lies beyond black and white.
 #[inline(always)]
-fn sums_of_half<S: Simd>(simd: S, end: f64x8<S>, counts: f64x8<S>, mean: &SampleMean) -> [u64; PIXELS / 2] {
+fn light_at<S: Simd>(simd: S, values: f32x16<S>) -> f32x16<S> {
+    let bytes = values.max(f32x16::splat(simd, 0.0)) * (1.0 / f32::from(Premultiplied16::PER_BYTE));
+    near_light(simd, bytes.min(f32x16::splat(simd, 255.0)))
+}
+
+/// The sums of `counts` numbers whose means are these, in parts of one, rounded down.
+#[inline(always)]
+fn sums_at<S: Simd>(simd: S, means: f32x16<S>, counts: f32x16<S>, one: f64) -> [u64; PIXELS] {
     // Rounding leaves room below black, where there is no sum.
-    let end = end.max(f64x8::splat(simd, 0.0));
-    let SampleMean::Linear(resolver) = mean else {
-        return whole(end * counts).to_array();
-    };
-    let light = resolver.of_stored();
-    let below = end.min(f64x8::splat(simd, ONE)).floor();
-    let [mut from, mut to] = [[0.0; PIXELS / 2]; 2];
-    for (i, below) in whole(below).to_array().into_iter().enumerate() {
-        let at = low_part(below);
-        from[i] = f64::from(light[usize::from(at)]);
-        to[i] = f64::from(light[usize::from(at.wrapping_add(1))]);
-    }
-    // Between neighbours the curve is straight but for far less than ends leave room for.
-    let (from, to) = (f64x8::simd_from(simd, from), f64x8::simd_from(simd, to));
-    whole((from + (to - from) * (end - below)) * counts).to_array()
+    let (means, counts) = (means.max(f32x16::splat(simd, 0.0)).widen(), counts.widen());
+    let mut sums = [0; PIXELS];
+    let (first, second) = sums.split_at_mut(PIXELS / 2);
+    whole(means.0 * counts.0 * one).store_slice(first);
+    whole(means.1 * counts.1 * one).store_slice(second);
+    sums
 }
 
 /// Numbers that are not negative, rounded down.
@@ -119,13 +124,6 @@ fn whole<S: Simd>(values: f64x8<S>) -> u64x8<S> {
     // Where whole numbers stand in the lower bits.
     const WHOLE: f64 = (1_u64 << 52) as f64;
     (values.floor() + WHOLE).bitcast::<u64x8<S>>() & ((1 << 52) - 1)
-}
-
-/// At most [`ONE`].
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the lower part is meant")]
-fn low_part(whole: u64) -> u16 {
-    whole as u16
 }
 
 impl std::ops::AddAssign for SumBounds {

@@ -18,7 +18,7 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::{PIXELS, SampleMean, SumBounds, sums_at};
+use crate::color::{PIXELS, SampleMean, SumBounds, sums_between};
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::PlacedParts;
@@ -60,16 +60,13 @@ fn bounds_with<S: Simd, const IS_LINEAR: bool>(
         let (mut ends, mut certain) = ([[[0; PIXELS]; 2]; 3], u64::MAX);
         for (k, ends) in ends.iter_mut().enumerate() {
             let values = near.spread(k, at, Some(spread.means));
-            let ([least, most], of_channel) = if IS_LINEAR {
+            let (found, of_channel) = if IS_LINEAR {
                 values.ends_of_light(simd, [spread.squares_along(near.dx[k], near.dy[k]); 2])
             } else {
                 values.ends(simd)
             };
             certain &= of_channel;
-            *ends = [
-                sums_at(simd, least, spread.counts, mean),
-                sums_at(simd, most, spread.counts, mean),
-            ];
+            *ends = sums_between(simd, found, spread.counts, mean);
         }
         for (i, (bounds, PlaceSums { count, .. })) in bounds.iter_mut().zip(&sums).enumerate() {
             let [r, g, b] = &ends;

@@ -29,8 +29,9 @@ pub(super) const TOGETHER: usize = 256;
 pub(super) struct BySamples {
     pub(super) positions: SamplePositions,
     pub(super) mean: SampleMean,
-    /// The light of surfaces.
+    /// The light of surfaces, and the same as [`Light::weighted`] has it.
     pub(super) lights: Vec<Light>,
+    pub(super) near_lights: Vec<[f32; 4]>,
     pub(super) known: KnownPixels,
     pub(super) parts: BoundedParts,
     /// Fragments of pixels that are open.
@@ -102,6 +103,7 @@ impl BySamples {
             positions,
             mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
+            near_lights: Vec::new(),
             known: KnownPixels::default(),
             parts: BoundedParts::default(),
             open: Vec::new(),

@@ -10,7 +10,8 @@
 mod bounded_parts;
 pub(in crate::raster) mod buffer;
 mod by_samples;
-pub(in crate::raster) mod flat_resolve;
+pub(in crate::raster) mod flat_light;
+mod flat_resolve;
 mod fragment_points;
 mod fragments;
 mod known_pixels;

@@ -9,8 +9,6 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
-use std::iter::Peekable;
-
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f32x16, u32x16};
 
@@ -81,7 +79,7 @@ fn means_with<S: Simd>(
     let known = same.means();
     let reach = f64::from(placed.pixels.grid.side - 1);
     let near = TintedPlanes::new(colors.planes, placed.tints).near(placed.pixels, known, reach);
-    let mut spread = PlaceSpreads::of_each(simd, &same);
+    let (mut spread, mut open) = (PlaceSpreads::of_each(simd, &same), Vec::new());
     for (block, values) in values.chunks_mut(PIXELS).enumerate() {
         let range = block * PIXELS..block * PIXELS + values.len();
         let means = if placed.are_same() {
@@ -113,10 +111,10 @@ fn means_with<S: Simd>(
             },
         );
         put(pixels, values);
-        let mut open = lanes_without(certain, values.len()).peekable();
-        if open.peek().is_some() {
-            by_samples(colors.shade, placed.part(range), open, mean, values);
-        }
+        open.extend(lanes_without(certain, values.len()).map(|i| range.start + i));
+    }
+    if !open.is_empty() {
+        by_samples(colors.shade, placed, &open, mean, values);
     }
 }
 
@@ -192,38 +190,29 @@ fn mean_places<S: Simd>(simd: S, placed: PlacedPixels<'_>) -> [f32x16<S>; 2] {
     [number(both & 0xFFFF) * per_sample, number(both >> 16) * per_sample]
 }
 
-/// Those of up to [`PIXELS`] pixels that are open, from each of their samples.
+/// The pixels of these numbers, from each of their samples.
 #[inline(never)]
-fn by_samples(
-    shade: &dyn Shade,
-    placed: PlacedPixels<'_>,
-    mut open: Peekable<impl Iterator<Item = usize>>,
-    mean: &SampleMean,
-    values: &mut [u32],
-) {
+fn by_samples(shade: &dyn Shade, placed: PlacedPixels<'_>, open: &[usize], mean: &SampleMean, values: &mut [u32]) {
     let Pixels { grid, places } = placed.pixels;
     let side = u16::try_from(grid.side).unwrap_or(u16::MAX);
     let (mut points, mut colors) = ([[0; 2]; MOST_SAMPLES], [Premultiplied16::TRANSPARENT; MOST_SAMPLES]);
-    let (mut lanes, mut pixels) = ([0; PIXELS], [0; PIXELS]);
-    let together = (MOST_SAMPLES / placed.count.max(1)).min(PIXELS);
-    while open.peek().is_some() {
-        let mut taken = 0;
-        for lane in open.by_ref().take(together) {
-            let points = points[taken * placed.count..].iter_mut();
-            for (point, inside) in points.zip(placed.inside(lane)) {
-                *point = [0, 1].map(|axis| places[lane][axis].wrapping_mul(side).wrapping_add(inside[axis].into()));
+    let mut pixels = [0; PIXELS];
+    let together = (MOST_SAMPLES / placed.count.max(1)).clamp(1, PIXELS);
+    for open in open.chunks(together) {
+        for (i, points) in open.iter().zip(points.chunks_exact_mut(placed.count)) {
+            for (point, inside) in points.iter_mut().zip(placed.inside(*i)) {
+                *point = [0, 1].map(|axis| places[*i][axis].wrapping_mul(side).wrapping_add(inside[axis].into()));
             }
-            lanes[taken] = lane;
-            taken += 1;
         }
-        let (points, colors) = (&points[..taken * placed.count], &mut colors[..taken * placed.count]);
+        let samples = open.len() * placed.count;
+        let (points, colors) = (&points[..samples], &mut colors[..samples]);
         shade.points(grid, points, colors);
         for tint in placed.tints {
             tint.over_all(colors, Rules::Standard);
         }
-        mean.opaque_pixels(colors, &mut pixels[..taken]);
-        for (lane, pixel) in lanes[..taken].iter().zip(pixels) {
-            values[*lane] = pixel;
+        mean.opaque_pixels(colors, &mut pixels[..open.len()]);
+        for (i, pixel) in open.iter().zip(pixels) {
+            values[*i] = pixel;
         }
     }
 }

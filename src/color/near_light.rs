@@ -237,6 +237,7 @@ fn light_of_four<S: Simd>(simd: S, samples: [Premultiplied16; 4]) -> f32x16<S> {
 mod tests {
     use fearless_simd::dispatch;
 
+    use super::super::Light;
     use super::super::light_scale::whole_light;
     use super::*;
     use crate::rules::Rules;
@@ -334,6 +335,46 @@ mod tests {
         })
         .budget_ms(500);
         assert!(certain * 10 > all * 7, "{certain} of {all} were certain");
+    }
+
+    #[test]
+    fn flat_colours_whose_light_is_exact_are_nearly_always_certain() {
+        let (mut certain, mut all) = (0, 0);
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let count = *u.choose(&[2_u32, 5, 16, 64, 256])?;
+            let resolver = LightResolver::new(count, rules);
+            let shift = u.int_in_range(0..=9)?;
+            // Some samples of each colour, until all are taken.
+            let (mut exact, mut sum, mut left) = (Light::default(), [0.0_f32; 4], count);
+            while left > 0 {
+                let mut channel = || Ok(u.int_in_range(0..=Premultiplied16::ONE)? >> shift);
+                let color = Premultiplied16([channel()?, channel()?, channel()?, Premultiplied16::ONE]);
+                let taken = u.int_in_range(1..=left)?;
+                let light = Light::new(color);
+                exact += light.times(taken);
+                for (sum, light) in sum.iter_mut().zip(light.weighted()) {
+                    *sum += light * taken as f32;
+                }
+                left -= taken;
+            }
+            let expected = resolver.pixel(exact);
+            let near = NearLight::of_exact(&resolver);
+            let [red, green, blue, _] = sum;
+            for (name, level) in simd::tested() {
+                let (found, is_certain) = dispatch!(level, simd => {
+                    let sums = [red, green, blue].map(|sum| f32x16::splat(simd, sum));
+                    let (pixels, certain) = near.pixels(simd, sums);
+                    (pixels.to_array()[0], certain & 1 == 1)
+                });
+                assert!(!is_certain || found == expected, "{name}: {found:x}, not {expected:x}");
+                certain += u32::from(is_certain);
+                all += 1;
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+        assert!(certain * 10 > all * 8, "{certain} of {all} were certain");
     }
 
     #[test]

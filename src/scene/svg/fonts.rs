@@ -226,11 +226,7 @@ fn chosen(database: &Database, wanted: &Wanted<'_>, more: &[PathBuf]) -> (Option
         Asked::Kind(kind) => {
             let found = wanted.face_of_kind(database, *kind, more);
             let (shipped, is_of_kind) = families::shipped(*kind);
-            let is_there = found.is_some() || is_of_kind;
-            if is_there {
-                // What the document itself names for want of the others is no loss.
-                unmet.clear();
-            } else {
+            if found.is_none() && !is_of_kind {
                 unmet.push(kind.name());
             }
             found.or_else(|| wanted.face(database, shipped))
@@ -242,6 +238,15 @@ fn chosen(database: &Database, wanted: &Wanted<'_>, more: &[PathBuf]) -> (Option
         let found = wanted.face_of_kind(database, kind, more);
         found.or_else(|| wanted.face(database, families::shipped(kind).0))
     });
+    let is_there = |kind| families::shipped(kind).1 || wanted.face_of_kind(database, kind, more).is_some();
+    if !unmet.is_empty()
+        && asked
+            .iter()
+            .any(|asked| matches!(asked, Asked::Kind(kind) if is_there(*kind)))
+    {
+        // The document says itself that any family of that kind will do for want of the others.
+        unmet.clear();
+    }
     let taken = found.and_then(|id| name(database, id));
     let families = (!unmet.is_empty()).then(|| Missing::Family(unmet.join(" or "), taken.clone()));
     let faces = found.iter().flat_map(|id| wanted.lacking(database, *id));
@@ -402,6 +407,14 @@ mod tests {
             [""; 0],
             "nothing where its own last choice is there"
         );
+        for first in ["arial", "No Such"] {
+            let list = [named(first), named("DejaVu Sans"), FontFamily::SansSerif];
+            assert_eq!(
+                set(&system, &list, 400).2,
+                [""; 0],
+                "whatever is taken before it: {first}"
+            );
+        }
         let (taken, _, told) = set(&system, &[named("Courier")], 400);
         assert!(taken == "Hack" && told.len() == 1, "of its kind: {taken}: {told:?}");
     }

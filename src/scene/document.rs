@@ -157,8 +157,9 @@ fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
         Ok(text) => return Ok(Cow::Borrowed(text)),
         Err(error) => error,
     };
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(DECLARATION)]).to_ascii_lowercase();
-    let declaration = head.split("?>").next().unwrap_or("");
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(DECLARATION)]);
+    let written = head.split("?>").next().unwrap_or("");
+    let declaration = written.to_ascii_lowercase();
     if declaration.contains("iso-8859-1") || declaration.contains("windows-1252") {
         let letter = |&byte: &u8| {
             let windows = usize::from(byte).checked_sub(0x80).and_then(|at| WINDOWS.get(at));
@@ -170,7 +171,17 @@ fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
         return Err(Problem::Picture(what).nowhere());
     }
     let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
-    Err(Problem::Encoding.at(LineIndex::new(&valid).locate(valid.len())))
+    let problem = declared_encoding(written).map_or(Problem::Encoding, Problem::OtherEncoding);
+    Err(problem.at(LineIndex::new(&valid).locate(valid.len())))
+}
+
+/// The encoding that an XML declaration names, where that is none of those that are read.
+fn declared_encoding(declaration: &str) -> Option<String> {
+    let (_, after) = declaration.strip_prefix("<?xml")?.split_once("encoding")?;
+    let value = after.trim_start().strip_prefix('=')?.trim_start();
+    let name = value.strip_prefix(['"', '\''])?.split(['"', '\'']).next()?;
+    let is_read = name.is_empty() || name.to_ascii_lowercase().starts_with("utf");
+    (!is_read).then(|| name.to_owned())
 }
 
 fn from_utf16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> Result<Cow<'static, str>, Fault> {
@@ -300,7 +311,9 @@ impl<'doc> Source<'doc> {
                 let message = "blanks stand before the XML declaration; delete what stands before <?xml";
                 return Problem::Repair(message.to_owned()).at(location);
             }
-            Error::UnknownEntityReference(name, _) => return Problem::Repair(entities::unknown(name)).at(location),
+            Error::UnknownEntityReference(name, _) => {
+                return Problem::Repair(entities::unknown(name, self.original)).at(location);
+            }
             Error::UnknownToken(_) if is_first => "text stands before the first tag".to_owned(),
             error => error.to_string().replace(&format!(" at {place}"), ""),
         };
@@ -429,6 +442,24 @@ mod tests {
 
     fn place(line: u32, column: u32) -> SourceLocation {
         SourceLocation { line, column }
+    }
+
+    #[test]
+    fn encodings_that_are_not_read_are_named() {
+        let told = |declaration: &str| {
+            let bytes = [declaration.as_bytes(), b"<svg>\x82\xa0</svg>"].concat();
+            decode(&bytes).map_err(|fault| fault.problem.to_string())
+        };
+        let line = told("<?xml version='1.0' encoding='Shift_JIS'?>").expect_err("another encoding");
+        assert!(line.starts_with("the document is in Shift_JIS, and UTF-8"), "{line}");
+        for other in ["", "<?xml version='1.0'?>", "<?xml version='1.0' encoding=\"UTF-8\"?>"] {
+            let line = told(other).expect_err("no text");
+            assert!(line.starts_with("this is not text in UTF-8"), "{other}: {line}");
+        }
+        assert!(
+            told("<?xml version='1.0' encoding='ISO-8859-1'?>").is_ok(),
+            "one that is read"
+        );
     }
 
     #[test]

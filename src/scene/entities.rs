@@ -39,14 +39,26 @@ const OF_HTML: [(&str, char); 16] = [
     ("euro", '€'),
 ];
 
-/// What is to be said of a reference to an entity that the document does not declare.
-pub(super) fn unknown(name: &str) -> String {
+/// What is to be said of a reference in `text` to an entity that it does not declare, or declares to be in another file.
+pub(super) fn unknown(name: &str, text: &str) -> String {
+    if text.split(DECLARATION).skip(1).any(|after| is_elsewhere(after, name)) {
+        return format!(
+            "the entity &{}; is in another file, and others are not read; write what it holds in its place",
+            quote(name)
+        );
+    }
     let known = OF_HTML.iter().find(|(known, _)| *known == name);
     let instead = known.map_or_else(
         || "the character itself".to_owned(),
         |(_, character)| format!("&#{};", u32::from(*character)),
     );
     format!("XML has no entity &{};; write {instead} in its place", quote(name))
+}
+
+/// Whether a declaration, of which `text` is what follows `<!ENTITY`, says in which file the entity of this name is.
+fn is_elsewhere(text: &str, name: &str) -> bool {
+    let mut words = text.split_ascii_whitespace();
+    words.next() == Some(name) && matches!(words.next(), Some("SYSTEM" | "PUBLIC"))
 }
 
 /// Refuses documents whose entities hold markup or expand too far.
@@ -62,25 +74,34 @@ pub(super) fn check(text: &str) -> Result<(), Fault> {
             .map(|(name, value)| (*name, expansion(value, &sizes).saturating_add(value.len())));
         sizes = larger.collect();
     }
-    if expansion(text, &sizes) > MAX_EXPANSION {
-        return Err(Problem::TooMany {
-            what: "bytes of expanded entities",
-            limit: MAX_EXPANSION,
-        }
-        .nowhere());
-    }
-    Ok(())
+    let mut sum = 0_usize;
+    let too_far = references(text, &sizes).find(|(_, size)| {
+        sum = sum.saturating_add(*size);
+        sum > MAX_EXPANSION
+    });
+    let Some((at, _)) = too_far else {
+        return Ok(());
+    };
+    let problem = Problem::TooMuch {
+        what: "bytes of expanded entities",
+        limit: MAX_EXPANSION,
+        cure: "let fewer entities hold others",
+    };
+    Err(problem.at(place_of(&text[..at])))
+}
+
+/// Where the references in `text` stand, and how many bytes each expands to.
+fn references(text: &str, sizes: &HashMap<&str, usize>) -> impl Iterator<Item = (usize, usize)> {
+    text.match_indices('&').filter_map(|(at, _)| {
+        let after = text[at + 1..].split('&').next()?;
+        Some((at, *sizes.get(after.split_once(';')?.0)?))
+    })
 }
 
 /// What all references in `text` expand to, in bytes.
 fn expansion(text: &str, sizes: &HashMap<&str, usize>) -> usize {
-    let names = text
-        .split('&')
-        .skip(1)
-        .filter_map(|after| Some(after.split_once(';')?.0));
-    names
-        .filter_map(|name| sizes.get(name))
-        .fold(0, |sum, size| sum.saturating_add(*size))
+    let sizes = references(text, sizes).map(|(_, size)| size);
+    sizes.fold(0, usize::saturating_add)
 }
 
 /// Names and values of the general entities that the document declares.
@@ -96,11 +117,13 @@ fn declarations(text: &str) -> Result<Vec<(&str, &str)>, Fault> {
         }
         found.push((name, value));
         if found.len() > MAX_DECLARATIONS {
-            return Err(Problem::TooMany {
+            let problem = Problem::TooMuch {
                 what: "entity declarations",
                 limit: MAX_DECLARATIONS,
-            }
-            .nowhere());
+                cure: "write what some of them hold in the place of their references",
+            };
+            let end = after.as_ptr().addr() - text.as_ptr().addr() - DECLARATION.len();
+            return Err(problem.at(place_of(&text[..end])));
         }
     }
     Ok(found)
@@ -137,11 +160,20 @@ mod tests {
     }
 
     #[test]
+    fn unknown_entities_are_told_from_those_of_other_files() {
+        let text = "<!DOCTYPE svg [<!ENTITY a SYSTEM 'file:///b'> <!ENTITY c \"d\">]>";
+        assert!(unknown("a", text).starts_with("the entity &a; is in another file"));
+        assert!(unknown("b", text).starts_with("XML has no entity &b;"));
+    }
+
+    #[test]
     fn check_refuses_bombs() {
         let level = |i: u32| format!("<!ENTITY a{} '{}'>", i + 1, format!("&a{i};").repeat(10));
         let mut nested = String::from("<!ENTITY a0 'aaaaaaaaaaaaaaaa'>");
         nested.extend((0..9).map(level));
-        assert!(check(&format!("{nested}&a9;")).is_err(), "billion laughs");
+        let laughs = check(&format!("{nested}\n&a9;")).expect_err("billion laughs");
+        assert!(laughs.location.is_some(), "where it is too much: {laughs:?}");
+        assert!(laughs.problem.to_string().ends_with("; let fewer entities hold others"));
         let flat = format!("<!ENTITY a '{}'>{}", "x".repeat(10_000), "&a;".repeat(10_000));
         assert!(check(&flat).is_err(), "quadratic blow-up");
         let markup = check("<!DOCTYPE svg [\n <!ENTITY a '<svg/>'>").expect_err("markup");

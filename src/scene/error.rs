@@ -42,6 +42,9 @@ pub enum Problem {
     /// Neither UTF-8 nor UTF-16.
     #[error("this is not text in UTF-8 or UTF-16; is it an SVG file? Save it as UTF-8")]
     Encoding,
+    /// In another encoding, as it says itself.
+    #[error("the document is in {}, and UTF-8, UTF-16, ISO-8859-1 and Windows-1252 are read; save it as UTF-8", quote(.0))]
+    OtherEncoding(String),
     /// Another kind of file.
     #[error("this is {0}, not an SVG file; give one, which may show it by <image href=\"...\">")]
     Picture(&'static str),
@@ -100,6 +103,16 @@ pub enum Problem {
         what: &'static str,
         /// How much is allowed.
         limit: usize,
+    },
+    /// The same, of what stands as often in a part of the document.
+    #[error("more than {limit} {what}; {cure}")]
+    TooMuch {
+        /// What there is too much of.
+        what: &'static str,
+        /// How much is allowed.
+        limit: usize,
+        /// What to do.
+        cure: &'static str,
     },
     /// The system has no room for the document or for its images.
     #[error("{0}; close other programs, or give a smaller scene")]

@@ -12,7 +12,7 @@ use super::error::Fault;
 use super::report::quote;
 use super::texture_files::TextureFiles;
 use super::triangles::{self, Element};
-use super::{Paint, PrimitiveKind, Skipped, SkippedKind, attributes, course_values, numbers, svg};
+use super::{Paint, PrimitiveKind, Problem, Skipped, SkippedKind, attributes, course_values, numbers, svg};
 use crate::color::Rgba;
 use crate::geometry::FillRule;
 
@@ -138,14 +138,30 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
                 continue;
             }
             self.report_ignored(node);
-            let to_user = to_user * self.transform(node)?;
-            match name {
-                "g" => open.push((node.children(), to_user)),
-                "texture" => {}
-                _ => self.element(node, to_user)?,
-            }
+            let drawn = self.transform(node).and_then(|own| match name {
+                "g" => {
+                    open.push((node.children(), to_user * own));
+                    Ok(())
+                }
+                "texture" => Ok(()),
+                _ => self.element(node, to_user * own),
+            });
+            drawn.or_else(|fault| self.not_drawn(fault))?;
         }
         Ok(())
+    }
+
+    /// Tells of an element that a number without end keeps from being drawn, with all that is inside; other faults are those of the
+    /// document. Such numbers are found before anything of an element is drawn.
+    fn not_drawn(&mut self, fault: Fault) -> Result<(), Fault> {
+        match (fault.location, &fault.problem) {
+            (Some(place), Problem::NotFinite { .. } | Problem::TooLarge { .. }) => {
+                let message = format!("not drawn: {}", fault.problem);
+                self.builder.report.warn(place, message);
+                Ok(())
+            }
+            _ => Err(fault),
+        }
     }
 
     fn report_ignored(&mut self, node: Node<'doc, 'doc>) {

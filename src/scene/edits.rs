@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Pieces of a text that are to be replaced; none overlaps another.
+/// Pieces of a text that are to be replaced; what lies inside of one that is stays away with it.
 #[derive(Debug, Default)]
 pub(super) struct Edits(Vec<(Range<usize>, String)>);
 
@@ -32,11 +32,16 @@ impl Edits {
         self.0.sort_by_key(|(there, _)| there.start);
         let more: usize = self.0.iter().map(|(_, piece)| piece.len()).sum();
         let mut changed = String::with_capacity(text.len() + more);
-        let mut copied = 0;
+        let (mut begun, mut copied) = (0, 0);
         for (there, piece) in self.0 {
+            if begun < there.start && there.start < copied {
+                continue;
+            }
             changed.push_str(text.get(copied..there.start).unwrap_or(""));
             changed.push_str(&piece);
-            copied = there.end.max(copied);
+            if there.end > copied {
+                (begun, copied) = (there.start, there.end);
+            }
         }
         changed.push_str(text.get(copied..).unwrap_or(""));
         changed
@@ -58,6 +63,11 @@ mod tests {
             "[abc <g>\u{e9}",
             "a change where another begins comes first"
         );
+        let mut edits = Edits::default();
+        edits.replace(0..4, "x".to_owned());
+        edits.insert(2, "y".to_owned());
+        edits.insert(4, "z".to_owned());
+        assert_eq!(edits.apply("abcdef"), "xzef", "nothing inside of what is gone");
         assert_eq!(Edits::default().apply("abc"), "abc", "nothing to do");
     }
 }

@@ -48,6 +48,26 @@ pub(super) fn all(attribute: &str, text: &str) -> Result<Vec<f32>, Problem> {
     Ok(numbers)
 }
 
+/// Where in `text` the first number stands that is too large for 32 bits. Words are no numbers here, whatever they say.
+pub(super) fn too_large_at(text: &str) -> Option<usize> {
+    let bytes = text.as_bytes();
+    // Most values are short and plain: only what may be too large is looked at.
+    let has_exponent = || bytes.iter().any(|byte| matches!(byte, b'e' | b'E'));
+    let is_long = || bytes.split(|byte| !byte.is_ascii_digit()).any(|run| run.len() > 37);
+    if !has_exponent() && !is_long() {
+        return None;
+    }
+    let mut at = 0;
+    while at < bytes.len() {
+        let length = length(&bytes[at..]);
+        if length > 0 && text.get(at..at + length).and_then(finite).is_none() {
+            return Some(at);
+        }
+        at += length.max(letters(&bytes[at..])).max(1);
+    }
+    None
+}
+
 fn not_finite(attribute: &str, value: &str) -> Problem {
     Problem::NotFinite {
         attribute: attribute.to_owned(),
@@ -158,6 +178,23 @@ mod tests {
             assert!(told.iter().all(|line| line.contains(word)), "{text}: {told:?}");
         }
         assert_eq!(leading("a", "1e30").expect("finite"), Some(1e30), "large is legal");
+    }
+
+    #[test]
+    fn numbers_that_are_too_large_have_a_place() {
+        let long = "9".repeat(39);
+        for (text, expected) in [
+            ("1e38 -3e38,.5e1", None),
+            ("nan inf 1e5", None),
+            ("1em 2ex", None),
+            ("M0 0L1e39 5", Some(5)),
+            ("translate(1e400px)", Some(10)),
+            ("\u{e9}-1e39", Some(2)),
+            (&format!("1 {long}"), Some(2)),
+            (&"0".repeat(60), None),
+        ] {
+            assert_eq!(too_large_at(text), expected, "{text}");
+        }
     }
 
     #[test]

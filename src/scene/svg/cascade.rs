@@ -3,21 +3,28 @@
 //!
 //! Of important declarations the last counts, as of all others (CSS Cascading 4, section 6.1); to usvg it is the first. So the
 //! words `!important` go, and what wins by them stands at the end of the element's own style, which wins over all.
+//!
+//! usvg compares each element with each rule. Where that would take long, what rules say of an element is written into its own style,
+//! before what is there, and usvg reads no style sheets: the same wins as before.
 
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::ops::Range;
 
 use roxmltree::Node;
-use simplecss::{Declaration, DeclarationTokenizer, Selector, StyleSheet};
+use simplecss::{Declaration, DeclarationTokenizer};
 
 use super::elements::Elements;
-use super::styles::Counted;
-use super::{sheets, transforms, values};
+use super::rules::Rules;
+use super::{nonsense, styles, transforms, values};
+use crate::scene::Problem;
 use crate::scene::edits::Edits;
 
 /// The largest length that is taken over, in user units.
 const FAR: f64 = 1e7;
+
+/// Most comparisons of elements with rules that usvg is left with.
+const MAX_COMPARISONS: usize = 10_000_000;
 
 /// Which properties say how long and where a shape is (SVG 2, section 7.9).
 const GEOMETRY: [(&str, &[&str]); 6] = [
@@ -32,14 +39,20 @@ const GEOMETRY: [(&str, &[&str]); 6] = [
 /// The rules of a document's style sheets, as far as they are of interest here, the weightiest last.
 #[derive(Debug, Default)]
 pub(super) struct Cascade<'doc> {
-    rules: Vec<(Selector<'doc>, Vec<Declaration<'doc>>)>,
+    rules: Rules<'doc, Vec<Declaration<'doc>>>,
     /// How often elements were compared with them.
     steps: Cell<u64>,
+    /// Whether the rules are all, and written into the styles of elements.
+    pub(super) is_written: bool,
+    /// What that costs so far.
+    cost: Cell<u64>,
 }
 
 /// What styles say of one element, and usvg would not know.
 #[derive(Debug, Default)]
 pub(super) struct Styled<'doc> {
+    /// What rules say, where usvg does not read it from them.
+    rules: String,
     /// Names and values, which win over all others.
     style: Vec<(&'doc str, String)>,
     /// Lengths of the shape.
@@ -53,19 +66,24 @@ pub(super) struct Styled<'doc> {
 impl<'doc> Cascade<'doc> {
     /// Of the style sheets below `root`.
     pub(super) fn below(root: Node<'doc, 'doc>) -> Self {
-        let mut sheet = StyleSheet::new();
-        for node in root.descendants().filter(|node| node.tag_name().name() == "style") {
-            sheets::parse(&mut sheet, node.text().unwrap_or(""));
-        }
-        let rules = sheet.rules.into_iter().filter_map(|mut rule| {
-            rule.declarations
-                .retain(|found| is_of_interest(found) || is_in_vain(found));
-            (!rule.declarations.is_empty()).then_some((rule.selector, rule.declarations))
-        });
+        let all = Rules::below(root);
+        let mut elements = root.descendants().filter(Node::is_element);
+        let is_written = !all.is_empty() && elements.nth(MAX_COMPARISONS / all.len()).is_some();
+        let of_interest = |mut declarations: Vec<Declaration<'doc>>| {
+            declarations.retain(|found| is_of_interest(found) || is_in_vain(found));
+            Some(declarations).filter(|left| !left.is_empty())
+        };
         Self {
-            rules: rules.collect(),
-            steps: Cell::new(0),
+            rules: if is_written { all } else { all.filter_map(of_interest) },
+            is_written,
+            ..Self::default()
         }
+    }
+
+    /// What is wrong where all of this takes too long.
+    pub(super) fn excess(&self) -> Option<Problem> {
+        let is_too_long = self.cost.get() > styles::MAX_COST;
+        styles::too_many(self.steps.get()).or_else(|| is_too_long.then(styles::too_long))
     }
 
     /// What styles say of `node`; `elements` are those of the document.
@@ -74,17 +92,17 @@ impl<'doc> Cascade<'doc> {
         if self.rules.is_empty() && !node.has_attribute("style") {
             return styled;
         }
-        let mut found: Vec<Declaration<'doc>> = Vec::new();
-        for (selector, declarations) in &self.rules {
-            let steps = &self.steps;
-            if selector.matches(&Counted { node, steps }) {
-                found.extend(declarations);
-            }
+        let matching = self.rules.matching(node, &self.steps);
+        let mut found: Vec<Declaration<'doc>> = matching.flatten().copied().collect();
+        if self.is_written {
+            styled.rules = in_one_style(&found);
+            self.cost
+                .set(self.cost.get().saturating_add(styles::cost(&styled.rules)));
         }
         styled.in_vain.extend(found.iter().filter(|found| is_in_vain(found)));
         let style = DeclarationTokenizer::from(node.attribute("style").unwrap_or(""));
         found.extend(style);
-        found.retain(is_of_interest);
+        found.retain(|found| is_of_interest(found) && !nonsense::is_nonsense(found.name, found.value));
         let mut names: Vec<&str> = found.iter().map(|declaration| declaration.name).collect();
         names.sort_unstable();
         names.dedup();
@@ -150,7 +168,15 @@ impl<'doc> Styled<'doc> {
         self.style.push(("display", "none".to_owned()));
     }
 
-    /// Writes it into `text`, in which the name in the element's tag ends at `name_end`.
+    /// Writes what rules say before all that an element's own style in `text` says, if it has one.
+    pub(super) fn write_rules(&self, node: Node<'_, '_>, edits: &mut Edits) {
+        let style = node.attributes().find(|attribute| attribute.name() == "style");
+        if let Some(style) = style.filter(|_| !self.rules.is_empty()) {
+            edits.insert(style.range_value().start, self.rules.clone());
+        }
+    }
+
+    /// Writes the rest into `text`, in which the name in the element's tag ends at `name_end`.
     pub(super) fn write(&self, text: &str, node: Node<'_, '_>, name_end: usize, edits: &mut Edits) {
         if let Some(style) = node.attributes().find(|attribute| attribute.name() == "style") {
             for mark in marks(text, style.range_value()) {
@@ -166,16 +192,41 @@ impl<'doc> Styled<'doc> {
         }
         let declarations = self.style.iter();
         let declarations = declarations.map(|(name, value)| format!("{name}:{}", escaped(value)));
-        let declarations = declarations.collect::<Vec<_>>().join(";");
+        let mut declarations = declarations.collect::<Vec<_>>().join(";");
+        let style = node.attributes().find(|attribute| attribute.name() == "style");
+        if style.is_none() {
+            declarations.insert_str(0, &self.rules);
+        }
         if declarations.is_empty() {
             return;
         }
-        match node.attributes().find(|attribute| attribute.name() == "style") {
+        match style {
             // A style without anything may not begin with a semicolon.
             Some(style) if style.value().trim().is_empty() => edits.replace(style.range_value(), declarations),
             Some(style) => edits.insert(style.range_value().end, format!(";{declarations}")),
             None => edits.insert(name_end, format!(" style=\"{declarations}\"")),
         }
+    }
+}
+
+/// Declarations of rules as they stand in an attribute, each with its semicolon; those that usvg would take for others are not there.
+fn in_one_style(declarations: &[Declaration<'_>]) -> String {
+    let understood = declarations
+        .iter()
+        .filter(|found| !nonsense::is_nonsense(found.name, found.value));
+    understood.fold(String::new(), |all, Declaration { name, value, .. }| {
+        let value = values::without_profile(value);
+        all + name + ":" + &escaped(value) + ";"
+    })
+}
+
+/// Has usvg pass over a style sheet, the name in whose tag ends at `name_end`.
+pub(super) fn hide_sheet(sheet: Node<'_, '_>, name_end: usize, edits: &mut Edits) {
+    /// A type that usvg does not read.
+    const UNREAD: &str = "unread";
+    match sheet.attributes().find(|attribute| attribute.name() == "type") {
+        Some(kind) => edits.replace(kind.range_value(), UNREAD.to_owned()),
+        None => edits.insert(name_end, format!(" type=\"{UNREAD}\"")),
     }
 }
 
@@ -216,11 +267,11 @@ fn is_of_interest(declaration: &Declaration<'_>) -> bool {
     important || matches!(name, "transform" | "filter") || is_length()
 }
 
-/// Whether a declaration of a rule has a value without meaning; colours and dashes are told where they stand.
+/// Whether a declaration of a rule has a value without meaning; what [`nonsense`] hides is told where it stands.
 fn is_in_vain(declaration: &Declaration<'_>) -> bool {
     let Declaration { name, value, .. } = *declaration;
     match name {
-        "fill" | "stroke" | "color" | "stop-color" | "stroke-dasharray" => false,
+        _ if nonsense::is_nonsense(name, value) => false,
         // Those of the root are told.
         "background" | "background-color" => true,
         "transform" => transforms::plain(value).is_none(),
@@ -241,7 +292,7 @@ pub(super) fn is_missing(value: &str, elements: &Elements<'_>) -> bool {
 }
 
 /// A value as it stands in an attribute in double or single quotes.
-fn escaped(value: &str) -> String {
+pub(super) fn escaped(value: &str) -> String {
     let mut escaped = String::with_capacity(value.len());
     for c in value.chars() {
         match c {

@@ -1,5 +1,4 @@
-//! What usvg would pass over in silence: values that it does not understand, numbers that are not finite, properties without
-//! effect.
+//! What usvg would pass over in silence: values that it does not understand, properties without effect.
 
 use glam::DAffine2;
 use roxmltree::Node;
@@ -7,7 +6,6 @@ use roxmltree::Node;
 use super::cascade::Styled;
 use super::listener::Listener;
 use super::{nonsense, own_triangles, values, viewports};
-use crate::scene::error::Fault;
 use crate::scene::report::quote;
 use crate::scene::{SkippedKind, numbers};
 
@@ -34,12 +32,7 @@ pub(super) struct Look {
 /// Looks at an element's attributes and style; complains unless nobody shall hear it.
 ///
 /// `styled` is what its styles say beside that.
-pub(super) fn look<L: Listener>(
-    listener: &mut L,
-    node: Node<'_, '_>,
-    styled: &Styled<'_>,
-    heard: bool,
-) -> Result<Look, Fault> {
+pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, styled: &Styled<'_>, heard: bool) -> Look {
     let mut look = Look {
         displayed: true,
         to_parent: DAffine2::IDENTITY,
@@ -52,7 +45,6 @@ pub(super) fn look<L: Listener>(
         // Triangles of the course say themselves what is wrong with their corners.
         let is_own = name == "points" && own_triangles::is_one(node);
         if !is_own && (LENGTHS.contains(&name) || values::is_known(name)) {
-            finite(listener, node, name, value)?;
             complaints.push((name, value.trim()));
         }
         if name == "pathLength" && is_dashed(node) && heard {
@@ -60,16 +52,14 @@ pub(super) fn look<L: Listener>(
             listener.warn(node, message.to_owned());
         }
         if LENGTHS.contains(&name) {
-            let largest = numbers::all(name, value).unwrap_or_default().into_iter();
+            let read = values::before_too_large(name, value);
+            let largest = numbers::all(name, read).unwrap_or_default().into_iter();
             look.reach = largest.fold(look.reach, |reach, number| reach.max(f64::from(number).abs()));
         }
     }
     let style = node.attribute("style").unwrap_or("");
     for declaration in simplecss::DeclarationTokenizer::from(style) {
         declared(&mut look, declaration.name, declaration.value);
-        if values::is_numeric(declaration.name) {
-            finite(listener, node, "style", declaration.value)?;
-        }
         let is_moved = declaration.name == "transform" && styled.transform.is_some();
         if heard && !styled.has_length(declaration.name) && is_geometry_in_vain(node, &declaration) {
             let message = format!(
@@ -95,7 +85,7 @@ pub(super) fn look<L: Listener>(
             complain(listener, node, name, value);
         }
     }
-    Ok(look)
+    look
 }
 
 /// Whether an element says itself that its outline is dashed.
@@ -113,6 +103,7 @@ fn is_geometry_in_vain(node: Node<'_, '_>, declaration: &simplecss::Declaration<
         && node.parent_element().is_some()
         && GEOMETRY.contains(&declaration.name)
         && declaration.value != "auto"
+        && values::is_understood(declaration.name, declaration.value)
         && node.attribute(declaration.name).map(plain) != Some(plain(declaration.value))
 }
 
@@ -125,17 +116,6 @@ fn declared(look: &mut Look, name: &str, value: &str) {
         }
         _ => {}
     }
-}
-
-/// Refuses numbers that are not finite.
-fn finite<L: Listener>(listener: &L, node: Node<'_, '_>, name: &str, value: &str) -> Result<(), Fault> {
-    // Most values are short and plain: only what may be too large is looked at.
-    let suspect = |byte: &u8| matches!(byte, b'e' | b'E' | b'n' | b'N' | b'i' | b'I');
-    let digits = value.split(|c: char| !c.is_ascii_digit()).any(|run| run.len() > 37);
-    if values::is_numeric(name) && (digits || value.bytes().any(|byte| suspect(&byte))) && !values::is_keyword(value) {
-        numbers::all(name, value).map_err(|problem| listener.fault(problem, node, name))?;
-    }
-    Ok(())
 }
 
 /// Whether an element is drawn as far as its outline is understood.

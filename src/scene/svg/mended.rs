@@ -9,6 +9,7 @@ use super::elements::Elements;
 use super::{nonsense, own_triangles, values};
 use crate::scene::edits::Edits;
 use crate::scene::numbers;
+use crate::scene::report::quote;
 
 /// White space as XML knows it.
 const SPACE: [char; 4] = [' ', '\t', '\n', '\r'];
@@ -97,6 +98,16 @@ pub(super) fn style_elsewhere(root: Node<'_, '_>) -> Option<&'static str> {
     let mut instructions = root.document().root().children().filter_map(|node| node.pi());
     let is_sheet = instructions.any(|instruction| instruction.target == "xml-stylesheet");
     is_sheet.then_some("<?xml-stylesheet?> has no effect; other style sheets are not fetched: put it into a <style>")
+}
+
+/// What is to be said of a root that other programs take for no drawing, as it is not in the namespace `svg`.
+pub(super) fn other_namespace(root: Node<'_, '_>, svg: &str) -> Option<String> {
+    let namespace = root.tag_name().namespace().unwrap_or("");
+    let what = match namespace {
+        "" => "has no namespace".to_owned(),
+        other => format!("is in the namespace \"{}\"", quote(other)),
+    };
+    (namespace != svg).then(|| format!("{what}; other programs draw it with xmlns=\"{svg}\" alone"))
 }
 
 /// What is to be said of a root whose coordinates lie so far from 0 that 32-bit floats, in which usvg counts, tell neighbouring

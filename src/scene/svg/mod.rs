@@ -30,6 +30,7 @@ mod pictures;
 mod prepare;
 mod reach;
 mod references;
+mod rules;
 mod server;
 mod shapes;
 mod sheets;
@@ -143,8 +144,13 @@ fn explain(error: &usvg::Error, builder: &Builder<'_>, root: Node<'_, '_>) -> Fa
 
 /// Tells of a document without a size, which is as large as what is drawn.
 fn warn_of_size(builder: &mut Builder<'_>, root: Node<'_, '_>, canvas: DVec2) {
-    let is_given = |name| root.attribute(name).is_some_and(|side| !side.trim_end().ends_with('%'));
-    if root.has_attribute("viewBox") || is_given("width") && is_given("height") {
+    let understood = |name| {
+        root.attribute(name)
+            .map(str::trim)
+            .filter(|value| values::is_understood(name, value))
+    };
+    let is_given = |name| understood(name).is_some_and(|side| !side.ends_with('%'));
+    if understood("viewBox").is_some() || is_given("width") && is_given("height") {
         return;
     }
     let message = format!(

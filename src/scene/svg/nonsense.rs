@@ -1,5 +1,6 @@
-//! Colours and dashes that nobody understands. By CSS they have no effect, and what an attribute, another rule or the element around says
-//! counts; usvg takes black, or the dashes before what it does not understand. So their names are changed in the text that usvg reads. Selectors that simplecss passes over are
+//! Colours and dashes that nobody understands, and numbers that are too large. By CSS they have no effect, and what an attribute,
+//! another rule or the element around says counts; usvg takes black, the dashes before what it does not understand, or an infinite
+//! number. So their names are changed in the text that usvg reads, and outlines end there. Selectors that simplecss passes over are
 //! told.
 
 use std::collections::HashSet;
@@ -8,7 +9,8 @@ use std::ops::Range;
 use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
-use super::{sheets, values};
+use super::cascade::{Styled, escaped};
+use super::{own_triangles, sheets, values};
 use crate::scene::declarations::NESTED;
 use crate::scene::edits::Edits;
 use crate::scene::media;
@@ -22,12 +24,23 @@ pub(super) const UNREAD: &str = "unread-";
 /// Properties of which usvg makes something else where it does not understand them.
 const MISTAKEN: [&str; 5] = ["fill", "stroke", "color", "stop-color", "stroke-dasharray"];
 
-/// Takes such values that `node` has, as attributes or in its style, out of `text`.
-pub(super) fn hide(text: &str, node: Node<'_, '_>, edits: &mut Edits) {
+/// Takes such values that `node` has, as attributes or in its style, out of `text`. `styled` says what it has from styles instead.
+pub(super) fn hide(text: &str, node: Node<'_, '_>, styled: &Styled<'_>, edits: &mut Edits) {
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
-        if is_nonsense(attribute.name(), attribute.value().trim()) {
-            // With another name it might be there twice.
-            edits.replace(attribute.range(), String::new());
+        let (name, value) = (attribute.name(), attribute.value());
+        // Outlines of the course's triangles are written anew.
+        let is_written = styled.has_length(name) || own_triangles::is_one(node) && matches!(name, "d" | "points");
+        if is_written {
+            continue;
+        }
+        if is_nonsense(name, value.trim()) {
+            if values::drawn_up_to(name, value).is_some() {
+                let drawn = values::before_too_large(name, value);
+                edits.replace(attribute.range_value(), escaped(drawn));
+            } else {
+                // With another name it might be there twice.
+                edits.replace(attribute.range(), String::new());
+            }
         } else if MISTAKEN.contains(&attribute.name()) || attribute.name() == "style" {
             hide_profiles(text, attribute.range_value(), edits);
         }
@@ -240,7 +253,7 @@ fn is_in_vain(declaration: &Declaration<'_>) -> bool {
 
 /// Whether a property has such a value.
 pub(super) fn is_nonsense(name: &str, value: &str) -> bool {
-    MISTAKEN.contains(&name) && !values::is_understood(name, value)
+    MISTAKEN.contains(&name) && !values::is_understood(name, value) || values::is_too_large(name, value)
 }
 
 /// How far `part` is from the start of the text that it is of.

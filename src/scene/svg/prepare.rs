@@ -4,7 +4,7 @@
 use glam::{DAffine2, DVec2};
 use roxmltree::{Attribute, Node};
 
-use super::cascade::Cascade;
+use super::cascade::{Cascade, Styled};
 use super::check;
 use super::elements::Elements;
 use super::listener::Listener;
@@ -129,7 +129,11 @@ pub(super) fn prepare<'doc, L: Listener>(
     if let Some(message) = mended::style_elsewhere(root) {
         preparation.listener.warn(root, message.to_owned());
     }
+    if let Some(message) = mended::other_namespace(root, SVG) {
+        preparation.listener.warn(root, message);
+    }
     preparation.namespace(root);
+    preparation.written_rules(root);
     if let Some(message) = mended::far_from_zero(root) {
         preparation.is_far_told = true;
         preparation.listener.warn(root, message);
@@ -222,7 +226,10 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
         let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
         let mut styled = self.cascade.styled(node, &self.elements);
-        let look = check::look(self.listener, node, &styled, is_told)?;
+        if let Some(problem) = self.cascade.excess() {
+            return Err(self.listener.fault(problem, node, ""));
+        }
+        let look = check::look(self.listener, node, &styled, is_told);
         viewports::resolve(node, &mut styled, &self.elements, viewport);
         let to_root = around.to_root * look.to_parent;
         if !transforms::is_within_floats(to_root, look.reach) {
@@ -233,20 +240,16 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.identify(node);
         self.marks.put(node, self.name_end(node), &mut self.edits);
         self.pixelate(node);
-        self.hide_nonsense(node);
+        styled.write_rules(node, &mut self.edits);
+        self.hide_nonsense(node, &styled);
         if own_triangles::is_one(node) {
             styled.paint(self.triangle(node));
         }
         styled.write(self.text, node, self.name_end(node), &mut self.edits);
         mended::trim_numbers(self.text, node, &styled, &mut self.edits);
         mended::mend_filter(node, &self.elements, &mut self.edits);
-        let far = viewport.filter(|_| heard && !self.is_far_told);
-        if let Some(message) = far.and_then(|picture| mended::far_before_transform(node, to_root, picture)) {
-            self.is_far_told = true;
-            self.listener.warn(node, message);
-        }
-        if let Some(message) = mended::clips_nothing(node, &self.elements).filter(|_| heard) {
-            self.listener.warn(node, message);
+        if heard {
+            self.tell(node, to_root, viewport);
         }
         match name {
             "image" => self.image(node, heard),
@@ -268,6 +271,18 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             },
         })
         .filter(|open| open.node.has_children()))
+    }
+
+    /// Tells of a shape that is drawn in another place, or not at all.
+    fn tell(&mut self, node: Node<'doc, 'doc>, to_root: DAffine2, viewport: Option<DVec2>) {
+        let far = viewport.filter(|_| !self.is_far_told);
+        if let Some(message) = far.and_then(|picture| mended::far_before_transform(node, to_root, picture)) {
+            self.is_far_told = true;
+            self.listener.warn(node, message);
+        }
+        if let Some(message) = mended::clips_nothing(node, &self.elements) {
+            self.listener.warn(node, message);
+        }
     }
 
     /// Refuses more elements than usvg reads, and what takes it time that grows with the square of its length.
@@ -296,6 +311,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             return Err(self.listener.fault(Problem::TooMany { what, limit }, node, ""));
         }
         Ok(())
+    }
+
+    /// Has usvg read no style sheet whose rules are written into the styles of elements.
+    fn written_rules(&mut self, root: Node<'doc, 'doc>) {
+        let sheets = root.descendants().filter(|node| node.tag_name().name() == "style");
+        for sheet in sheets.filter(|_| self.cascade.is_written) {
+            cascade::hide_sheet(sheet, self.name_end(sheet), &mut self.edits);
+        }
     }
 
     /// Gives the element an id if it needs one.
@@ -338,12 +361,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
     }
 
-    /// Takes their names from values that usvg would make black of.
-    fn hide_nonsense(&mut self, node: Node<'doc, 'doc>) {
-        if own_triangles::is_one(node) {
-            return;
-        }
-        nonsense::hide(self.text, node, &mut self.edits);
+    /// Takes their names from values that usvg would make something else of.
+    fn hide_nonsense(&mut self, node: Node<'doc, 'doc>, styled: &Styled<'doc>) {
+        nonsense::hide(self.text, node, styled, &mut self.edits);
         if node.tag_name().name() == "style" {
             cascade::unmark_sheet(self.text, node, &mut self.edits);
             let (cuts, between) = sheets::cuts(self.text, node).unwrap_or_default();

@@ -4,9 +4,10 @@ use std::cell::Cell;
 use std::collections::HashMap;
 
 use roxmltree::{Node, NodeId};
-use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
+use simplecss::{AttributeOperator, PseudoClass};
 
 use super::listener::Listener;
+use super::rules::Rules;
 use super::{marked, nonsense, sheets};
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
@@ -42,39 +43,28 @@ pub(super) enum By {
 /// The style sheets of one document, as far as they refer to elements.
 #[derive(Debug, Default)]
 pub(super) struct Styles<'doc> {
-    rules: Vec<(Selector<'doc>, Vec<(By, &'doc str)>)>,
+    rules: Rules<'doc, Vec<(By, &'doc str)>>,
 }
 
 impl<'doc> Styles<'doc> {
     /// Reads the style sheets below `root`, and refuses those that take too long to compare with all elements.
     pub(super) fn below<L: Listener>(root: Node<'doc, 'doc>, listener: &L) -> Result<Self, Fault> {
-        let mut sheet = StyleSheet::new();
-        for node in root
-            .descendants()
-            .filter(|node| node.has_tag_name("style") || node.tag_name().name() == "style")
-        {
-            sheets::parse(&mut sheet, node.text().unwrap_or(""));
-        }
-        if sheet.rules.is_empty() {
+        let all = Rules::below(root);
+        if all.is_empty() {
             return Ok(Self::default());
         }
         let steps = Cell::new(0);
         for node in root.descendants().filter(Node::is_element) {
-            for rule in &sheet.rules {
-                rule.selector.matches(&Counted { node, steps: &steps });
-                if steps.get() > MAX_STEPS {
-                    let what = "comparisons of elements with style sheets";
-                    let limit = usize::try_from(MAX_STEPS).unwrap_or(usize::MAX);
-                    return Err(listener.fault(Problem::TooMany { what, limit }, node, ""));
-                }
+            all.matching(node, &steps).for_each(drop);
+            if let Some(problem) = too_many(steps.get()) {
+                return Err(listener.fault(problem, node, ""));
             }
         }
-        let rules = sheet.rules.into_iter().filter_map(|rule| {
-            let references = rule.declarations.iter();
-            let references: Vec<_> = references.flat_map(|d| declared(d.name, d.value)).collect();
-            (!references.is_empty()).then_some((rule.selector, references))
+        let rules = all.filter_map(|declarations| {
+            let references = declarations.iter().flat_map(|d| declared(d.name, d.value));
+            Some(references.collect()).filter(|references: &Vec<_>| !references.is_empty())
         });
-        Ok(Self { rules: rules.collect() })
+        Ok(Self { rules })
     }
 
     /// The ids that an element refers to, wherever that is said.
@@ -88,12 +78,7 @@ impl<'doc> Styles<'doc> {
                 found.extend(declared(declaration.name, declaration.value));
             }
         }
-        let steps = Cell::new(0);
-        for (selector, references) in &self.rules {
-            if selector.matches(&Counted { node, steps: &steps }) {
-                found.extend(references);
-            }
-        }
+        found.extend(self.rules.matching(node, &Cell::new(0)).flatten());
         let by = match node.tag_name().name() {
             "a" => return found,
             "feImage" => By::Picture,
@@ -130,6 +115,33 @@ impl<'doc> Styles<'doc> {
     }
 }
 
+/// Most styles of elements together that rules are written into, by what each [`costs`](cost).
+pub(super) const MAX_COST: u64 = MAX_PASSED;
+
+/// What it costs to write a style into an element and to have it read there, in bytes to pass over.
+pub(super) fn cost(style: &str) -> u64 {
+    /// Of each byte in memory.
+    const OF_A_BYTE: u64 = 40;
+    let memory = OF_A_BYTE.saturating_mul(style.len() as u64);
+    passed_over(style).saturating_mul(READINGS[0]).saturating_add(memory)
+}
+
+/// What is wrong with styles that take too long to read.
+pub(super) fn too_long() -> Problem {
+    let what = "bytes to pass over while styles are read, where each value counts all before it";
+    let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
+    Problem::TooMany { what, limit }
+}
+
+/// What is wrong where elements are compared with rules in so many steps.
+pub(super) fn too_many(steps: u64) -> Option<Problem> {
+    (steps > MAX_STEPS).then(|| Problem::TooMuch {
+        what: "comparisons of elements with style sheets",
+        limit: usize::try_from(MAX_STEPS).unwrap_or(usize::MAX),
+        cure: "select by classes and ids, or by fewer rules",
+    })
+}
+
 /// Refuses styles that take too long to read: at the end of every value simplecss counts lines from the beginning of its
 /// style, so that time grows with the square of a style's length; sheets are read in pieces where they can be cut in `text`.
 pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, text: &str, listener: &L) -> Result<(), Fault> {
@@ -148,9 +160,7 @@ pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, text: &str, listener: &L)
         };
         passed = passed.saturating_add(pieces.saturating_mul(READINGS[1]));
         if passed > MAX_PASSED {
-            let what = "bytes to pass over while styles are read, where each value counts all before it";
-            let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
-            return Err(listener.fault(Problem::TooMany { what, limit }, node, "style"));
+            return Err(listener.fault(too_long(), node, "style"));
         }
     }
     Ok(())
@@ -170,23 +180,13 @@ pub(super) struct Effects(HashMap<NodeId, bool>);
 impl Effects {
     /// Those below `root`, in whose style sheets [`Styles::below`] found nothing wrong.
     pub(super) fn below(root: Node<'_, '_>) -> Self {
-        let mut sheet = StyleSheet::new();
-        for node in root.descendants().filter(|node| node.tag_name().name() == "style") {
-            sheets::parse(&mut sheet, node.text().unwrap_or(""));
-        }
         let is_effect = |declaration: &&simplecss::Declaration<'_>| declaration.name == "vector-effect";
-        let rules: Vec<_> = (sheet.rules.iter())
-            .filter_map(|rule| Some((&rule.selector, rule.declarations.iter().rfind(is_effect)?.value)))
-            .collect();
+        let rules = Rules::below(root).filter_map(|declarations| Some(declarations.iter().rfind(is_effect)?.value));
         let steps = Cell::new(0);
         let mut effects = HashMap::new();
         for node in root.descendants().filter(Node::is_element) {
             let mut effect = node.attribute("vector-effect");
-            for (selector, value) in &rules {
-                if selector.matches(&Counted { node, steps: &steps }) {
-                    effect = Some(value);
-                }
-            }
+            effect = rules.matching(node, &steps).last().copied().or(effect);
             for declaration in simplecss::DeclarationTokenizer::from(node.attribute("style").unwrap_or("")) {
                 if declaration.name == "vector-effect" {
                     effect = Some(declaration.value);

@@ -3,6 +3,8 @@
 use glam::{DAffine2, DMat2, DVec2};
 use svgtypes::{Length, NumberListParser, Paint, PathParser, PointsParser, TransformListParser, TransformListToken};
 
+use crate::scene::numbers;
+
 /// What kind of value belongs to a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -149,7 +151,7 @@ pub(super) fn is_without_effect(name: &str, value: &str) -> bool {
 pub(super) const OF_PROFILE: &str = "icc-color(";
 
 /// A colour without that of a profile behind it, in whose place it is shown (SVG 1.1, section 12.3).
-fn without_profile(value: &str) -> &str {
+pub(super) fn without_profile(value: &str) -> &str {
     let color = value.split_once(OF_PROFILE).map(|(color, _)| color.trim_end());
     color.filter(|color| !color.is_empty()).unwrap_or(value)
 }
@@ -167,6 +169,16 @@ pub(super) fn is_numeric(name: &str) -> bool {
     )
 }
 
+/// Where in a value the first number stands that is too large; a name without numbers has none.
+fn too_large_at(name: &str, value: &str) -> Option<usize> {
+    numbers::too_large_at(value).filter(|_| is_numeric(name))
+}
+
+/// Whether a value of this name holds a number that usvg reads and cannot count with.
+pub(super) fn is_too_large(name: &str, value: &str) -> bool {
+    too_large_at(name, value).is_some()
+}
+
 /// Whether the value is a word that has a meaning anywhere.
 pub(super) fn is_keyword(value: &str) -> bool {
     KEYWORDS.contains(&value.trim())
@@ -179,6 +191,9 @@ pub(super) fn is_understood(name: &str, value: &str) -> bool {
     };
     if is_keyword(value) || value.is_empty() {
         return true;
+    }
+    if is_too_large(name, value) {
+        return false;
     }
     match kind {
         Kind::Lengths => value
@@ -205,8 +220,14 @@ pub(super) fn is_understood(name: &str, value: &str) -> bool {
     }
 }
 
+/// What of a value stands before the first number that is too large.
+pub(super) fn before_too_large<'v>(name: &str, value: &'v str) -> &'v str {
+    too_large_at(name, value).map_or(value, |at| &value[..at])
+}
+
 /// Up to where an outline is drawn that is understood in part: so many points of a polygon, or segments of a path.
 pub(super) fn drawn_up_to(name: &str, value: &str) -> Option<(usize, &'static str)> {
+    let value = before_too_large(name, value);
     let (count, what) = match name {
         "points" => (PointsParser::from(value).count(), "points"),
         "d" => (PathParser::from(value).take_while(Result::is_ok).count(), "segments"),
@@ -218,7 +239,7 @@ pub(super) fn drawn_up_to(name: &str, value: &str) -> Option<(usize, &'static st
 /// Whether these are numbers, and one too many.
 pub(super) fn is_odd(points: &str) -> bool {
     let numbers: Result<Vec<f64>, _> = NumberListParser::from(points).collect();
-    numbers.is_ok_and(|numbers| numbers.len() % 2 == 1)
+    numbers.is_ok_and(|numbers| numbers.len() % 2 == 1) && !is_too_large("points", points)
 }
 
 fn is_length(text: &str) -> bool {
@@ -227,6 +248,9 @@ fn is_length(text: &str) -> bool {
 
 /// A list of transforms, the first outermost.
 pub(super) fn transform(text: &str) -> Option<DAffine2> {
+    if numbers::too_large_at(text).is_some() {
+        return None;
+    }
     let mut product = DAffine2::IDENTITY;
     for token in TransformListParser::from(text) {
         product *= match token.ok()? {

@@ -9,6 +9,7 @@ use svgtypes::{Length, LengthUnit, NumberListParser};
 
 use super::cascade::Styled;
 use super::elements::Elements;
+use super::values;
 use crate::scene::report::quote;
 
 /// The sides of a box, and whether each is along x.
@@ -50,6 +51,7 @@ pub(super) fn hides(node: Node<'_, '_>) -> bool {
 pub(super) fn is_without_area(view_box: &str) -> bool {
     let numbers: Result<Vec<f64>, _> = NumberListParser::from(view_box).collect();
     matches!(numbers.as_deref(), Ok([_, _, width, height]) if width.min(*height) == 0.0)
+        && !values::is_too_large("viewBox", view_box)
 }
 
 /// What is said of such a `viewBox`.
@@ -86,7 +88,11 @@ pub(super) fn inside<'doc>(node: Node<'doc, 'doc>, styled: &Styled<'doc>, around
 
 /// Width and height of an element's `viewBox`.
 fn view_box(node: Node<'_, '_>) -> Option<DVec2> {
-    let view_box: svgtypes::ViewBox = node.attribute("viewBox")?.trim().parse().ok()?;
+    let view_box = node.attribute("viewBox")?.trim();
+    let view_box: svgtypes::ViewBox = view_box
+        .parse()
+        .ok()
+        .filter(|_| !values::is_too_large("viewBox", view_box))?;
     Some(DVec2::new(view_box.w, view_box.h))
 }
 
@@ -123,7 +129,7 @@ fn units(length: &str, whole: Option<f64>) -> Option<f64> {
         LengthUnit::Percent => whole? / 100.0,
         LengthUnit::Em | LengthUnit::Ex => return None,
     };
-    Some(length.number * unit).filter(|number| number.is_finite())
+    Some(length.number * unit).filter(|number| number.abs() <= f64::from(f32::MAX))
 }
 
 #[cfg(test)]
@@ -135,7 +141,7 @@ mod tests {
         for empty in ["0 0 0 10", " 0,0,10,0 ", "0 0 0 0", "-5 -5 0 1e3"] {
             assert!(is_without_area(empty), "{empty}");
         }
-        for other in ["0 0 1 1", "0 0 -5 0", "0 0 0", "0 0 0 0 0", "a", ""] {
+        for other in ["0 0 1 1", "0 0 -5 0", "0 0 0", "0 0 0 0 0", "0 0 1e39 0", "a", ""] {
             assert!(!is_without_area(other), "{other}");
         }
     }
@@ -152,5 +158,6 @@ mod tests {
             assert_eq!(units(length, Some(200.0)), expected, "{length}");
         }
         assert_eq!(units("25%", None), None, "of nothing");
+        assert_eq!(units("1e39", None), None, "too large");
     }
 }

@@ -135,7 +135,8 @@ fn cli_says_which_of_two_readings_was_taken() {
 #[test]
 fn cli_reads_a_folder_of_the_course_as_a_whole() {
     let own = "<svg width='4' height='3'><colortri points='0 0 4 0 0 3' colors='1 0 0 1 0 1 0 1 0 0 1 1'/></svg>";
-    let only_svg = "<svg width='4' height='3'><path d='M0 0h4v3z' fill='#ff0000'/></svg>";
+    let only_svg =
+        "<svg xmlns='http://www.w3.org/2000/svg' width='4' height='3'><path d='M0 0h4v3z' fill='#ff0000'/></svg>";
     let folder = folder_with(&[
         ("in/a.svg", EITHER),
         ("in/deep/b.svg", own),

@@ -80,6 +80,14 @@ fn documents_of_another_namespace_are_drawings_too() {
     ] {
         let scene = read(document, DialectChoice::Svg);
         assert_eq!(scene.primitives.len(), 1, "{document}");
+        let told = lines(&scene);
+        let is_of_svg = document.contains("w3.org");
+        assert_eq!(told.len(), usize::from(!is_of_svg), "{document}: {told:?}");
+        assert!(
+            told.iter()
+                .all(|line| line.contains("other programs draw it with xmlns=")),
+            "{told:?}"
+        );
     }
 }
 

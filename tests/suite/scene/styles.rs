@@ -1,9 +1,9 @@
 //! Style sheets and styles in the dialect `svg`, and letters along paths.
 
 use rasterscope::color::Rgba;
-use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
-use crate::support::documents::{area, kinds, lines, svg_scene};
+use crate::support::documents::{area, kinds, lines, svg, svg_scene, try_read};
 
 const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
 const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
@@ -249,4 +249,60 @@ fn letters_along_paths_are_drawn_or_missed() {
         assert_eq!(lines(&scene), [""; 0], "{path}");
         assert!(referred > 10.0 && (area(&scene) - referred).abs() < 1e-6, "{path}");
     }
+}
+
+/// Enough shapes for rules to be written into the styles of elements; the first ones are those of `body`.
+fn crowded(css: &str, body: &str) -> Scene {
+    let rules: String = (0..2_000).map(|i| format!(".unused{i}{{fill:#{i:06x}}}")).collect();
+    let crowd = "<rect class='crowd' width='0' height='0'/>".repeat(6_000);
+    svg_scene(&format!("<style>{css}{rules}</style>{body}<g>{crowd}</g>"))
+}
+
+#[test]
+fn many_rules_and_shapes_look_as_few_do() {
+    let css = "rect { fill: blue; stroke: none } .a { fill: red; marker: none } #i { fill: lime } g > .b { fill: yellow!important } \
+               .c { fill: reddish; stroke: green icc-color(x, 1) } .d { font-family: \"A & B\"; stroke-width: 1e39 } \
+               g rect + rect { stroke: #123456; stroke-width: 3 } [class='a b'] { opacity: .5 } .e { x: 5px; transform: rotate(45deg) }";
+    let size = "width='9' height='9'";
+    let body = format!(
+        "<rect {size}/><rect class='a' {size}/><rect class='a' id='i' {size}/><rect class='c' {size}/>\
+         <rect class='a' style='fill: black' {size}/><rect class='a' style=' ' {size}/><rect class='a' style='fill: reddish' {size}/>\
+         <g class='d'><rect class='a b' style='fill: red' {size}/><rect class='e' stroke='red' {size}/></g>"
+    );
+    let few = svg_scene(&format!("<style>{css}</style>{body}"));
+    let many = crowded(css, &body);
+    assert_eq!(kinds(&many), kinds(&few));
+    // The sheets are not of one length.
+    let told = |scene: &Scene| -> Vec<String> {
+        let lines = lines(scene).into_iter();
+        lines
+            .filter_map(|line| Some(line.split_once(": ")?.1.to_owned()))
+            .collect()
+    };
+    assert_eq!(told(&many), told(&few));
+    assert!(!told(&few).is_empty(), "what is not understood");
+}
+
+#[test]
+fn hundreds_of_classes_for_a_hundred_thousand_shapes_are_read() {
+    let rules: String = (0..700).map(|i| format!(".st{i}{{fill:#{i:06x}}}")).collect();
+    let shape = |i: usize| format!("<path class='st{}' d='M0 0h1v1z'/>", i % 700);
+    let shapes: String = (0..100_000).map(shape).collect();
+    let scene = svg_scene(&format!("<style>{rules}</style>{shapes}"));
+    assert_eq!(scene.primitives.len(), 100_000);
+    assert!(scene.report.is_empty(), "{:?}", lines(&scene));
+}
+
+#[test]
+fn rules_that_may_be_those_of_every_element_are_bounded() {
+    let rules = "* + * > * { fill: red }".repeat(1_000);
+    let shapes = "<g><rect width='1' height='1'/></g>".repeat(50_000);
+    let document = svg("width='9' height='9'", &format!("<style>{rules}</style>{shapes}"));
+    let error = try_read(document.as_bytes(), DialectChoice::Svg)
+        .expect_err("too many")
+        .to_string();
+    assert!(
+        error.ends_with("comparisons of elements with style sheets; select by classes and ids, or by fewer rules"),
+        "{error}"
+    );
 }

@@ -616,24 +616,77 @@ fn long_style_sheets_are_read_in_pieces() {
     }
 }
 
+/// A drawing that looks as a plain one does, and one line about it.
+#[track_caller]
+fn assert_drawn_and_told(body: &str, plain: &str, told: &str) {
+    let scene = svg_scene(body);
+    let lines = lines(&scene);
+    assert!(lines.len() == 1 && lines[0].ends_with(told), "{body}: {lines:?}");
+    assert_eq!(kinds(&scene), kinds(&svg_scene(plain)), "{body}");
+    assert!(!kinds(&scene).is_empty(), "{body}: something is drawn");
+}
+
 #[test]
-fn svg_numbers_without_end_are_refused() {
-    for body in [
-        "<rect width='1e400' height='1'/>",
-        "<rect width='nan' height='1'/>",
-        "<polygon points='0,0 1e39,0 1,1'/>",
-        "<polygon points='0,0 inf,0 1,1'/>",
-        "<g transform='scale(1e400)'/>",
-        "<g transform='scale(1e30)'><rect x='1e30' width='1' height='1'/></g>",
-        "<line stroke-width='infinity'/>",
-        "<svg viewBox='0 0 nan 1'/>",
+fn svg_numbers_without_end_have_no_effect() {
+    let nothing = "is not understood and has no effect";
+    let path = "<path d='M0 0h9' stroke='red'/>";
+    let rect = "<rect width='9' height='9'/>";
+    for (body, plain, told) in [
+        ("<circle cx='NaN' r='9'/>", "<circle r='9'/>", nothing),
+        ("<circle cx='1e39' r='9'/>", "<circle r='9'/>", nothing),
+        ("<rect x='-Infinity' width='9' height='9'/>", rect, nothing),
+        ("<rect y='1e400' width='9' height='9'/>", rect, nothing),
+        ("<rect style='x: 1e39px' width='9' height='9'/>", rect, nothing),
+        (
+            "<rect transform='translate(NaN,5)' width='9' height='9'/>",
+            rect,
+            nothing,
+        ),
+        ("<rect transform='scale(1e39)' width='9' height='9'/>", rect, nothing),
+        (
+            "<style>rect { transform: translate(1e39px) }</style><rect width='9' height='9'/>",
+            rect,
+            nothing,
+        ),
+        ("<path d='M0 0h9' stroke='red' stroke-width='1e39'/>", path, nothing),
+        (
+            "<path d='M0 0h9' stroke='red' style='stroke-width: 1e39!important'/>",
+            path,
+            nothing,
+        ),
+        (
+            "<style>path { stroke-width: 1e39 }</style><path d='M0 0h9' stroke='red'/>",
+            path,
+            nothing,
+        ),
+        (
+            "<svg viewBox='0 0 NaN 1'><circle r='9'/></svg>",
+            "<svg><circle r='9'/></svg>",
+            nothing,
+        ),
+        (
+            "<svg viewBox='0 0 1e39 1'><circle r='9'/></svg>",
+            "<svg><circle r='9'/></svg>",
+            nothing,
+        ),
     ] {
-        let document = svg("width='10' height='10'", &format!("\n {body}"));
-        let error = try_read(document.as_bytes(), DialectChoice::Svg).expect_err(body);
-        let line = error.to_string();
-        assert!(line.starts_with("test.svg:2:"), "{body}: {line}");
-        assert!(!line.contains('\n') && line.contains("3.4e38"), "{body}: {line}");
+        assert_drawn_and_told(body, plain, told);
     }
+    for number in ["NaN", "1e39", "-1e400"] {
+        let path = format!("<path d='M0 0L9 0L9 9L{number} 5L0 9'/>");
+        let told = "is not understood after 3 segments; it is drawn up to there";
+        assert_drawn_and_told(&path, "<path d='M0 0L9 0L9 9'/>", told);
+        let polygon = format!("<polygon points='0,0 9,0 9,9 {number},1 0,9'/>");
+        let told = "is not understood after 3 points; it is drawn up to there";
+        assert_drawn_and_told(&polygon, "<polygon points='0,0 9,0 9,9'/>", told);
+    }
+    // What no number of its own is too large for is still refused: nothing of it can be drawn anywhere.
+    let body = "<g transform='scale(1e30)'><rect x='1e30' width='1' height='1'/></g>";
+    let document = svg("width='10' height='10'", &format!("\n {body}"));
+    let line = try_read(document.as_bytes(), DialectChoice::Svg)
+        .expect_err(body)
+        .to_string();
+    assert!(line.starts_with("test.svg:2:") && line.contains("3.4e38"), "{line}");
     // Groups inside each other move their shape by the sum, not by the product.
     let (open, close) = ("<g transform='translate(900, 700)'>".repeat(20), "</g>".repeat(20));
     let turned = "<g transform='rotate(1 250 250)'>".repeat(20);

@@ -448,7 +448,7 @@ mod tests {
     fn encodings_that_are_not_read_are_named() {
         let told = |declaration: &str| {
             let bytes = [declaration.as_bytes(), b"<svg>\x82\xa0</svg>"].concat();
-            decode(&bytes).map_err(|fault| fault.problem.to_string())
+            decode(&bytes).map(drop).map_err(|fault| fault.problem.to_string())
         };
         let line = told("<?xml version='1.0' encoding='Shift_JIS'?>").expect_err("another encoding");
         assert!(line.starts_with("the document is in Shift_JIS, and UTF-8"), "{line}");

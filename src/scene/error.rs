@@ -93,9 +93,6 @@ pub enum Problem {
     /// Transforms carry a coordinate beyond the range of 32-bit floats.
     #[error("transforms move this shape further than 3.4e38; use smaller numbers")]
     TooFar,
-    /// What an element refers to refers back to it.
-    #[error("references lead in a circle from here; take one of them out")]
-    Circle,
     /// A ceiling that protects memory and time.
     #[error("more than {limit} {what}; split the document")]
     TooMany {

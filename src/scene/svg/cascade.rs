@@ -15,6 +15,7 @@ use roxmltree::Node;
 use simplecss::{Declaration, DeclarationTokenizer};
 
 use super::elements::Elements;
+use super::graph::Circular;
 use super::rules::Rules;
 use super::{nonsense, styles, transforms, values};
 use crate::scene::Problem;
@@ -59,16 +60,18 @@ pub(super) struct Styled<'doc> {
     geometry: Vec<(&'static str, Cow<'doc, str>)>,
     /// The transform, as attributes have it.
     pub(super) transform: Option<String>,
+    /// What is to be said of references that lead in circles.
+    pub(super) circles: Vec<String>,
     /// What of the rules it has no effect.
     pub(super) in_vain: Vec<Declaration<'doc>>,
 }
 
 impl<'doc> Cascade<'doc> {
-    /// Of the style sheets below `root`.
-    pub(super) fn below(root: Node<'doc, 'doc>) -> Self {
+    /// Of the style sheets below `root`, in whose document references may lead in circles.
+    pub(super) fn below(root: Node<'doc, 'doc>, has_circles: bool) -> Self {
         let all = Rules::below(root);
         let mut elements = root.descendants().filter(Node::is_element);
-        let is_written = !all.is_empty() && elements.nth(MAX_COMPARISONS / all.len()).is_some();
+        let is_written = !all.is_empty() && (has_circles || elements.nth(MAX_COMPARISONS / all.len()).is_some());
         let of_interest = |mut declarations: Vec<Declaration<'doc>>| {
             declarations.retain(|found| is_of_interest(found) || is_in_vain(found));
             Some(declarations).filter(|left| !left.is_empty())
@@ -86,10 +89,15 @@ impl<'doc> Cascade<'doc> {
         styles::too_many(self.steps.get()).or_else(|| is_too_long.then(styles::too_long))
     }
 
-    /// What styles say of `node`; `elements` are those of the document.
-    pub(super) fn styled(&self, node: Node<'doc, 'doc>, elements: &Elements<'doc>) -> Styled<'doc> {
+    /// What styles say of `node`; `elements` are those of the document, and `circular` its references that lead in circles.
+    pub(super) fn styled(
+        &self,
+        node: Node<'doc, 'doc>,
+        elements: &Elements<'doc>,
+        circular: &[Circular<'doc>],
+    ) -> Styled<'doc> {
         let mut styled = Styled::default();
-        if self.rules.is_empty() && !node.has_attribute("style") {
+        if self.rules.is_empty() && !node.has_attribute("style") && circular.is_empty() {
             return styled;
         }
         let matching = self.rules.matching(node, &self.steps);
@@ -102,20 +110,56 @@ impl<'doc> Cascade<'doc> {
         styled.in_vain.extend(found.iter().filter(|found| is_in_vain(found)));
         let style = DeclarationTokenizer::from(node.attribute("style").unwrap_or(""));
         found.extend(style);
-        found.retain(|found| is_of_interest(found) && !nonsense::is_nonsense(found.name, found.value));
+        found.retain(|found| !nonsense::is_nonsense(found.name, found.value));
+        let circles = open_circles(node, &found, circular);
+        found.retain(is_of_interest);
         let mut names: Vec<&str> = found.iter().map(|declaration| declaration.name).collect();
         names.sort_unstable();
         names.dedup();
         for name in names {
-            let mut own = found.iter().filter(|declaration| declaration.name == name);
-            let important = own.clone().rfind(|declaration| declaration.important);
-            let Some(winner) = important.or_else(|| own.next_back()) else {
-                continue;
-            };
-            styled.take(node, winner, elements);
+            if let Some(winner) = winner(&found, name) {
+                styled.take(node, winner, elements);
+            }
+        }
+        for (name, instead, message) in circles {
+            styled.style.push((name, instead));
+            styled.circles.push(message);
         }
         styled
     }
+}
+
+/// The declaration of a property that counts: the last one that is important, or else the last.
+fn winner<'f, 'doc>(found: &'f [Declaration<'doc>], name: &str) -> Option<&'f Declaration<'doc>> {
+    let mut own = found.iter().filter(|declaration| declaration.name == name);
+    let important = own.clone().rfind(|declaration| declaration.important);
+    important.or_else(|| own.next_back())
+}
+
+/// The properties of an element whose references lead in circles: what is taken instead, which wins over all, and what is to be said.
+/// Without another paint behind it a reference is none.
+fn open_circles<'doc>(
+    node: Node<'doc, 'doc>,
+    found: &[Declaration<'doc>],
+    circular: &[Circular<'doc>],
+) -> Vec<(&'static str, String, String)> {
+    let mut opened: Vec<(&str, String, String)> = Vec::new();
+    for circular in circular {
+        for (name, is_around) in circular.properties() {
+            let declared = winner(found, name).map(|declaration| declaration.value);
+            let value = declared.or_else(|| node.attribute(name));
+            let is_so = value.map_or(is_around, |value| circular.is_in(value));
+            if !is_so || opened.iter().any(|(other, ..)| *other == name) {
+                continue;
+            }
+            let behind = value.and_then(|value| value.split_once(')'));
+            let instead = behind.filter(|_| matches!(name, "fill" | "stroke"));
+            let instead = instead.map_or("", |(_, instead)| instead.trim());
+            let paint = if instead.is_empty() { "none" } else { instead };
+            opened.push((name, paint.to_owned(), circular.told(name, instead)));
+        }
+    }
+    opened
 }
 
 impl<'doc> Styled<'doc> {

@@ -1,6 +1,4 @@
-//! References that lead in a circle, told apart by whether usvg gets out of it.
-//!
-//! usvg takes out one reference of a circle of one or two, if both are of one kind. Anything larger it would follow for ever.
+//! References that lead in a circle.
 
 use std::collections::HashMap;
 
@@ -9,42 +7,64 @@ use super::styles::By;
 /// A reference, or a step to something inside: from, to, and how.
 pub(super) type Edge = (usize, usize, By);
 
-/// An element of a circle that usvg does not get out of, if there is one.
-pub(super) fn endless(edges: &[Edge]) -> Option<usize> {
-    let left = on_circles(edges);
-    let mut groups: HashMap<usize, usize> = HashMap::new();
-    for &(from, to, _) in &left {
-        let (one, other) = (group(&mut groups, from), group(&mut groups, to));
-        groups.insert(one, other);
-    }
-    // What is referred to in each group, and how: one or two of one kind are what usvg finds.
-    let mut targets: HashMap<usize, Vec<(usize, By)>> = HashMap::new();
-    for &(from, to, by) in left.iter().filter(|(_, _, by)| is_reference(*by)) {
-        let of_group = targets.entry(group(&mut groups, from)).or_default();
-        if !of_group.contains(&(to, by)) {
-            of_group.push((to, by));
-        }
-        let is_found = match of_group.as_slice() {
-            _ if matches!(by, By::Picture | By::Inherited) => false,
-            [_] => true,
-            [(_, first), (_, second)] => first == second && *first != By::Filter,
-            _ => false,
-        };
-        if !is_found {
-            return Some(to);
+/// The references that are part of a circle: where each leads, something leads back. Without them there is no circle.
+pub(super) fn closing(edges: &[Edge]) -> Vec<Edge> {
+    let edges = on_circles(edges);
+    let mut numbers: HashMap<usize, usize> = HashMap::new();
+    for (from, to, _) in &edges {
+        for end in [from, to] {
+            let next = numbers.len();
+            numbers.entry(*end).or_insert(next);
         }
     }
-    None
+    let [mut onward, mut back] = [vec![Vec::new(); numbers.len()], vec![Vec::new(); numbers.len()]];
+    for (from, to, _) in &edges {
+        onward[numbers[from]].push(numbers[to]);
+        back[numbers[to]].push(numbers[from]);
+    }
+    let groups = groups(&onward, &back);
+    let is_closing = |(from, to, by): &Edge| *by != By::Inside && groups[numbers[from]] == groups[numbers[to]];
+    edges.into_iter().filter(is_closing).collect()
 }
 
-/// A `use` is no danger: usvg counts its way.
-fn is_reference(by: By) -> bool {
-    !matches!(by, By::Inside | By::Href)
+/// The number of each element's group, in which all lead to each other, as Kosaraju and Sharir find them: those that lead to most come
+/// first, and each takes all that lead to it and have no group yet.
+fn groups(onward: &[Vec<usize>], back: &[Vec<usize>]) -> Vec<usize> {
+    let mut left = Vec::with_capacity(onward.len());
+    let mut seen = vec![false; onward.len()];
+    for start in 0..onward.len() {
+        if std::mem::replace(&mut seen[start], true) {
+            continue;
+        }
+        let mut open = vec![(start, 0)];
+        while let Some((at, next)) = open.last_mut() {
+            let Some(&to) = onward[*at].get(*next) else {
+                left.push(*at);
+                open.pop();
+                continue;
+            };
+            *next += 1;
+            if !std::mem::replace(&mut seen[to], true) {
+                open.push((to, 0));
+            }
+        }
+    }
+    let mut groups = vec![usize::MAX; onward.len()];
+    for &start in left.iter().rev() {
+        let mut open = vec![start];
+        while let Some(at) = open.pop() {
+            if groups[at] == usize::MAX {
+                groups[at] = start;
+                open.extend(&back[at]);
+            }
+        }
+    }
+    groups
 }
 
 /// The edges that are left when everything is taken away that leads nowhere, or that nothing leads to: those of circles, and
 /// between them.
-pub(super) fn on_circles(edges: &[Edge]) -> Vec<Edge> {
+fn on_circles(edges: &[Edge]) -> Vec<Edge> {
     let flipped = |edges: Vec<Edge>| {
         edges
             .into_iter()
@@ -85,48 +105,58 @@ fn without_sources(edges: &[Edge]) -> Vec<Edge> {
         .collect()
 }
 
-/// Which group an element belongs to; groups that were joined are one.
-fn group(groups: &mut HashMap<usize, usize>, of: usize) -> usize {
-    let mut at = of;
-    while let Some(&next) = groups.get(&at).filter(|next| **next != at) {
-        at = next;
-    }
-    // Straight to the end the next time.
-    groups.insert(of, at);
-    at
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn circles_of_one_or_two_of_a_kind_are_left_to_usvg() {
-        use By::{Clip, Fill, Href, Inherited, Inside, Mask, Stroke};
+    fn references_of_circles_are_found_and_no_others() {
+        use By::{Fill, Href, Inherited, Inside, Mask, Stroke};
         for (edges, expected, what) in [
-            (vec![(0, 1, Inside), (1, 2, Fill)], false, "no circle"),
+            (vec![(0, 1, Inside), (1, 2, Fill)], vec![], "no circle"),
+            (vec![(0, 0, Href)], vec![(0, 0, Href)], "itself"),
             (
                 vec![(0, 1, Inside), (1, 2, Fill), (2, 3, Inside), (3, 2, Fill)],
-                false,
-                "a pattern in itself",
-            ),
-            (vec![(0, 1, Mask), (1, 0, Mask)], false, "two masks"),
-            (vec![(0, 1, Mask), (1, 2, Mask), (2, 0, Mask)], true, "three masks"),
-            (vec![(0, 1, Fill), (1, 0, Stroke)], true, "two kinds"),
-            (vec![(0, 1, Inherited), (1, 0, Inside)], true, "by what is around"),
-            (vec![(0, 1, Href), (1, 2, Inside), (2, 0, Href)], false, "use alone"),
-            (
-                vec![(0, 1, Clip), (1, 0, Clip), (2, 3, Mask), (3, 2, Mask)],
-                false,
-                "two circles apart",
+                vec![(3, 2, Fill)],
+                "a pattern in itself, and a shape that has it",
             ),
             (
-                vec![(1, 0, Fill), (0, 1, Fill), (1, 2, Fill), (2, 0, Fill)],
-                true,
-                "a short circle hides a long one",
+                vec![(0, 1, Mask), (1, 2, Mask), (2, 0, Mask)],
+                vec![(0, 1, Mask), (1, 2, Mask), (2, 0, Mask)],
+                "three masks",
+            ),
+            (
+                vec![(0, 1, Fill), (1, 0, Stroke), (1, 2, Fill), (2, 3, Inside), (3, 2, Mask)],
+                vec![(0, 1, Fill), (1, 0, Stroke), (3, 2, Mask)],
+                "what leads from circle to circle is on none",
+            ),
+            (
+                vec![(0, 1, Inherited), (1, 0, Inside)],
+                vec![(0, 1, Inherited)],
+                "by what is around",
+            ),
+            (
+                vec![(0, 1, Inside), (0, 2, Inside), (1, 2, Href), (2, 0, Href)],
+                vec![(1, 2, Href), (2, 0, Href)],
+                "two ways",
             ),
         ] {
-            assert_eq!(endless(&edges).is_some(), expected, "{what}");
+            assert_eq!(closing(&edges), expected, "{what}");
         }
+    }
+
+    #[test]
+    fn nothing_is_left_of_circles_without_their_references() {
+        arbtest::arbtest(|u| {
+            let mut edges: Vec<Edge> = (2..9).map(|to| (to / 2, to, By::Inside)).collect();
+            for _ in 0..u.int_in_range(0..=12)? {
+                edges.push((u.int_in_range(1..=8)?, u.int_in_range(1..=8)?, By::Href));
+            }
+            let taken = closing(&edges);
+            edges.retain(|edge| !taken.contains(edge));
+            assert_eq!(on_circles(&edges), []);
+            Ok(())
+        })
+        .budget_ms(200);
     }
 }

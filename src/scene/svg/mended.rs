@@ -8,8 +8,8 @@ use super::cascade::{Styled, is_missing};
 use super::elements::Elements;
 use super::{nonsense, own_triangles, values};
 use crate::scene::edits::Edits;
-use crate::scene::numbers;
 use crate::scene::report::quote;
+use crate::scene::{attributes, numbers};
 
 /// White space as XML knows it.
 const SPACE: [char; 4] = [' ', '\t', '\n', '\r'];
@@ -52,6 +52,38 @@ pub(super) fn mend_filter(node: Node<'_, '_>, elements: &Elements<'_>, edits: &m
     }
 }
 
+/// Whether an element is all of a mask and made white by its filter, which then has the effect that it shall have.
+pub(super) fn is_whitened(node: Node<'_, '_>, elements: &Elements<'_>) -> bool {
+    let Some(filter) = node.attribute("filter") else {
+        return false;
+    };
+    let is_all = node.parent_element().is_some_and(|parent| {
+        parent.tag_name().name() == "mask" && parent.children().filter(Node::is_element).count() == 1
+    });
+    let effects = values::reference(filter)
+        .filter(|_| is_all)
+        .and_then(|id| elements.own(id))
+        .map(|filter| filter.children().filter(Node::is_element));
+    effects.is_some_and(|mut effects| {
+        let first = effects
+            .next()
+            .filter(|effect| effect.tag_name().name() == "feColorMatrix");
+        let values = first.and_then(|effect| effect.attribute("values"));
+        let numbers = values.and_then(|values| numbers::all("values", values).ok());
+        effects.next().is_none() && numbers.is_some_and(|numbers| numbers == values::WHITENS)
+    })
+}
+
+/// Some values of `image-rendering` are known to usvg in styles only; as attributes they mean what an older one does.
+pub(super) fn pixelate(node: Node<'_, '_>, edits: &mut Edits) {
+    let attribute = node
+        .attributes()
+        .find(|attribute| attribute.name() == "image-rendering");
+    if let Some(attribute) = attribute.filter(|attribute| matches!(attribute.value(), "pixelated" | "crisp-edges")) {
+        edits.replace(attribute.range_value(), "optimizeSpeed".to_owned());
+    }
+}
+
 /// Whether an element shows nothing because it has a filter without effects, as SVG wants it.
 pub(super) fn is_filtered_away(node: Node<'_, '_>, elements: &Elements<'_>) -> bool {
     let id = node.attribute("filter").and_then(values::reference);
@@ -90,6 +122,18 @@ pub(super) fn clips_nothing(node: Node<'_, '_>, elements: &Elements<'_>) -> Opti
         Some(format!(
             "<use> of <{name}> in a clipPath has no effect; use the shapes inside themselves"
         ))
+    }
+}
+
+/// What is to be said of a `use` of what is not there.
+pub(super) fn shows_nothing(node: Node<'_, '_>, elements: &Elements<'_>) -> Option<&'static str> {
+    let address = attributes::href(node).filter(|_| node.tag_name().name() == "use")?;
+    if elements.target(node).is_some() {
+        None
+    } else if address.trim().starts_with('#') {
+        Some("not drawn: no element has the id that it refers to")
+    } else {
+        Some("not drawn: other documents are not looked into")
     }
 }
 

@@ -17,6 +17,7 @@ mod elements;
 mod fallback;
 mod families;
 mod fonts;
+mod graph;
 mod guarded;
 mod listener;
 mod marked;
@@ -78,7 +79,7 @@ pub(super) fn read<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, te
 
 fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &str) -> Result<DVec2, Fault> {
     let prepared = prepare::prepare(root, text, builder)?;
-    references::check(root, builder)?;
+    references::check(root, &prepared.graph, builder)?;
     let letters = prepared.letters;
     let fonts = letters.map(|_| own_fonts::joined(fonts::database(), root, builder));
     let loading = Mutex::new(Loading::new(builder));
@@ -128,15 +129,9 @@ fn explain(error: &usvg::Error, builder: &Builder<'_>, root: Node<'_, '_>) -> Fa
         }
         .at(builder.locate(root)),
         usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => {
-            let too_many = Problem::TooMany {
-                what: "elements, with those that are used again",
-                limit: prepare::MAX_ELEMENTS,
-            };
-            // usvg follows a circle until it has had enough.
-            match references::circle_of_uses(root) {
-                Some(at) => Problem::Circle.at(builder.locate(at)),
-                None => too_many.nowhere(),
-            }
+            let what = "elements, with those that are used again";
+            let limit = prepare::MAX_ELEMENTS;
+            Problem::TooMany { what, limit }.nowhere()
         }
         error => Problem::Xml(super::report::quote(&error.to_string())).nowhere(),
     }

@@ -246,7 +246,7 @@ fn nested(
     }
     let mut listener = Outside { loading, location };
     let prepared = prepare::prepare(root, source.text(), &mut listener)?;
-    references::check(root, &mut listener)?;
+    references::check(root, &prepared.graph, &mut listener)?;
     let fonts = prepared.letters;
     let fonts = fonts.map(|_| own_fonts::joined(fonts::database(), root, &mut listener));
     let load = |address: &str| {

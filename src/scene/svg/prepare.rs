@@ -7,9 +7,10 @@ use roxmltree::{Attribute, Node};
 use super::cascade::{Cascade, Styled};
 use super::check;
 use super::elements::Elements;
+use super::graph::{Circular, Graph};
 use super::listener::Listener;
 use super::marked::Marks;
-use super::values::{self, WHITENS};
+use super::styles::Styles;
 use super::{cascade, mended, nonsense, own_triangles, sheets, styles, text_paths, transforms, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
@@ -79,6 +80,8 @@ pub(super) struct Prepared<'doc> {
     pub(super) images: Vec<Node<'doc, 'doc>>,
     /// The first element with text, if there is one.
     pub(super) letters: Option<Node<'doc, 'doc>>,
+    /// How its elements lead to each other.
+    pub(super) graph: Graph<'doc>,
 }
 
 /// Gathers the changes to one document.
@@ -89,6 +92,7 @@ struct Preparation<'a, 'doc, L> {
     images: Vec<Node<'doc, 'doc>>,
     letters: Option<Node<'doc, 'doc>>,
     cascade: Cascade<'doc>,
+    graph: Graph<'doc>,
     /// How many elements usvg will have to read, at least.
     read: usize,
     marks: Marks<'a>,
@@ -105,6 +109,7 @@ pub(super) fn prepare<'doc, L: Listener>(
     listener: &mut L,
 ) -> Result<Prepared<'doc>, Fault> {
     styles::bounded(root, text, listener)?;
+    let graph = Graph::below(root, Styles::below(root, listener)?);
     let mut edits = Edits::default();
     let marks = Marks::of(text, &mut edits);
     let names = own_triangles::Names::of(text, &mut edits);
@@ -119,7 +124,8 @@ pub(super) fn prepare<'doc, L: Listener>(
         elements: Elements::below(root),
         images: Vec::new(),
         letters: None,
-        cascade: Cascade::below(root),
+        cascade: Cascade::below(root, graph.has_circles()),
+        graph,
         read: 0,
         marks,
         names,
@@ -144,6 +150,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         elements,
         images,
         letters,
+        graph,
         ..
     } = preparation;
     Ok(Prepared {
@@ -151,6 +158,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         elements,
         images,
         letters,
+        graph,
     })
 }
 
@@ -224,8 +232,11 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             self.edits.replace(node.range(), String::new());
             return Ok(None);
         }
-        let is_told = heard && !self.is_whitened(node) && !mended::is_filtered_away(node, &self.elements);
-        let mut styled = self.cascade.styled(node, &self.elements);
+        let is_told =
+            heard && !mended::is_whitened(node, &self.elements) && !mended::is_filtered_away(node, &self.elements);
+        let circular = self.graph.circular(node);
+        let mut styled = self.cascade.styled(node, &self.elements, &circular);
+        self.open_circles(node, &circular, heard.then_some(&styled));
         if let Some(problem) = self.cascade.excess() {
             return Err(self.listener.fault(problem, node, ""));
         }
@@ -239,7 +250,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         self.count(node)?;
         self.identify(node);
         self.marks.put(node, self.name_end(node), &mut self.edits);
-        self.pixelate(node);
+        mended::pixelate(node, &mut self.edits);
         styled.write_rules(node, &mut self.edits);
         self.hide_nonsense(node, &styled);
         if own_triangles::is_one(node) {
@@ -253,7 +264,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
         match name {
             "image" => self.image(node, heard),
-            "use" if heard => self.used(node),
             "textPath" => {
                 let id = self.elements.outline(node.id().get_usize());
                 text_paths::move_own(self.text, node, (&id, self.name_end(node)), &mut self.edits);
@@ -273,7 +283,24 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         .filter(|open| open.node.has_children()))
     }
 
-    /// Tells of a shape that is drawn in another place, or not at all.
+    /// Takes an element's addresses out that lead in circles; tells of them, and of what its styles have for others, to whoever hears it.
+    fn open_circles(&mut self, node: Node<'doc, 'doc>, circular: &[Circular<'doc>], heard: Option<&Styled<'doc>>) {
+        let mut told = heard.map_or(Vec::new(), |styled| styled.circles.clone());
+        if let Some(address) = circular.iter().find(|circular| circular.is_address()) {
+            let hrefs = node.attributes().filter(|attribute| attribute.name() == "href");
+            for href in hrefs {
+                self.edits.replace(href.range(), String::new());
+            }
+            let is_use = node.tag_name().name() == "use";
+            let property = if is_use { "not drawn: its href" } else { "href" };
+            told.extend(heard.map(|_| address.told(property, "")));
+        }
+        for message in told {
+            self.listener.warn(node, message);
+        }
+    }
+
+    /// Tells of a shape that is drawn in another place, and of what is not drawn.
     fn tell(&mut self, node: Node<'doc, 'doc>, to_root: DAffine2, viewport: Option<DVec2>) {
         let far = viewport.filter(|_| !self.is_far_told);
         if let Some(message) = far.and_then(|picture| mended::far_before_transform(node, to_root, picture)) {
@@ -282,6 +309,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
         if let Some(message) = mended::clips_nothing(node, &self.elements) {
             self.listener.warn(node, message);
+        }
+        if let Some(message) = mended::shows_nothing(node, &self.elements) {
+            self.listener.warn(node, message.to_owned());
         }
     }
 
@@ -325,39 +355,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     fn identify(&mut self, node: Node<'doc, 'doc>) {
         if let Some(id) = self.elements.give(node) {
             self.edits.insert(self.name_end(node), format!(" id=\"{id}\""));
-        }
-    }
-
-    /// Whether an element is all of a mask and made white by its filter, which then has the effect that it shall have.
-    fn is_whitened(&self, node: Node<'doc, 'doc>) -> bool {
-        let Some(filter) = node.attribute("filter") else {
-            return false;
-        };
-        let is_all = node.parent_element().is_some_and(|parent| {
-            parent.tag_name().name() == "mask" && parent.children().filter(Node::is_element).count() == 1
-        });
-        let effects = values::reference(filter)
-            .filter(|_| is_all)
-            .and_then(|id| self.elements.own(id))
-            .map(|filter| filter.children().filter(Node::is_element));
-        effects.is_some_and(|mut effects| {
-            let first = effects
-                .next()
-                .filter(|effect| effect.tag_name().name() == "feColorMatrix");
-            let values = first.and_then(|effect| effect.attribute("values"));
-            let numbers = values.and_then(|values| numbers::all("values", values).ok());
-            effects.next().is_none() && numbers.is_some_and(|numbers| numbers == WHITENS)
-        })
-    }
-
-    /// Some values of `image-rendering` are known to usvg in styles only; as attributes they mean what an older one does.
-    fn pixelate(&mut self, node: Node<'doc, 'doc>) {
-        let attribute = node
-            .attributes()
-            .find(|attribute| attribute.name() == "image-rendering");
-        if let Some(attribute) = attribute.filter(|attribute| matches!(attribute.value(), "pixelated" | "crisp-edges"))
-        {
-            self.edits.replace(attribute.range_value(), "optimizeSpeed".to_owned());
         }
     }
 
@@ -457,22 +454,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let number = self.elements.add_triangle(node);
         self.names.disguise(self.text, node, &points, &mut self.edits);
         own_triangles::look(number)
-    }
-
-    /// Tells of a `use` of what is not there.
-    fn used(&mut self, node: Node<'doc, 'doc>) {
-        let Some(address) = attributes::href(node) else {
-            return;
-        };
-        if self.elements.target(node).is_some() {
-            return;
-        }
-        let message = if address.trim().starts_with('#') {
-            "not drawn: no element has the id that it refers to"
-        } else {
-            "not drawn: other documents are not looked into"
-        };
-        self.listener.warn(node, message.to_owned());
     }
 }
 

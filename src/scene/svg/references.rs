@@ -1,19 +1,20 @@
-//! References between elements: those that multiply beyond measure, or lead in a circle that usvg would follow for ever.
+//! References between elements that multiply beyond measure.
 //!
 //! usvg looks for an element's clip path, mask, pattern, marker and filter as often as it is referred to, inside of what is
-//! referred to again. It breaks circles of one or two elements, and counts what a `use` repeats; the rest is looked at here.
+//! referred to again. It counts what a `use` repeats; the rest is looked at here. References that lead in
+//! circles are taken out before.
 
 use std::collections::HashMap;
 
 use roxmltree::{Node, NodeId};
 
-use super::circles;
+use super::graph::{Graph, Link, Unmet, is_server};
 use super::listener::Listener;
-use super::styles::{By, Styles};
+use super::styles::By;
 use super::values;
+use crate::scene::Problem;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
-use crate::scene::{Problem, attributes};
 
 /// Most elements that usvg may look at, those that are referred to counted again with everything inside.
 const MAX_WORK: u64 = 4_000_000;
@@ -52,14 +53,6 @@ struct Found {
     paths: u64,
 }
 
-/// Something that an element refers to.
-#[derive(Clone, Copy, Debug)]
-struct Link<'doc> {
-    /// The property or attribute.
-    by: By,
-    to: Node<'doc, 'doc>,
-}
-
 /// An element on the way down.
 struct Open<'doc> {
     node: Node<'doc, 'doc>,
@@ -69,19 +62,18 @@ struct Open<'doc> {
     found: Found,
 }
 
-/// Refuses documents whose references are too many, too deep or circular.
-pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L) -> Result<(), Fault> {
-    let styles = Styles::below(root, listener)?;
-    let ids = by_id(root);
+/// Refuses documents whose references are too many or too deep, and tells of those to what is not there.
+pub(super) fn check<'doc, L: Listener>(
+    root: Node<'doc, 'doc>,
+    graph: &Graph<'doc>,
+    listener: &mut L,
+) -> Result<(), Fault> {
     let mut search = Search {
-        styles: &styles,
-        ids: &ids,
+        graph,
         done: HashMap::new(),
         steps: 0,
         references: 0,
-        inherited: styles.inherited(root),
         unmet: Vec::new(),
-        has_circles: false,
     };
     search.run(root, listener)?;
     for Unmet { node, by, id } in search.unmet.drain(..) {
@@ -94,74 +86,19 @@ pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L)
             );
         }
     }
-    if !search.has_circles {
-        return Ok(());
-    }
-    match circles::endless(&search.edges(root)) {
-        Some(at) => {
-            let node = root.descendants().find(|node| node.id().get_usize() == at);
-            Err(listener.fault(Problem::Circle, node.unwrap_or(root), ""))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The first `use` that leads back to itself or to something around it: usvg gives up where several do so together.
-pub(super) fn circle_of_uses<'doc>(root: Node<'doc, 'doc>) -> Option<Node<'doc, 'doc>> {
-    let ids = by_id(root);
-    let target = |node| ids.get(attributes::href(node)?.trim().strip_prefix('#')?).copied();
-    let number = |node: Node<'_, '_>| node.id().get_usize();
-    let mut edges: Vec<circles::Edge> = Vec::new();
-    for node in root.descendants().filter(Node::is_element) {
-        let parent = node.parent_element();
-        edges.extend(parent.map(|parent| (number(parent), number(node), By::Inside)));
-        let shown = target(node).filter(|_| is_use(node));
-        edges.extend(shown.map(|shown| (number(node), number(shown), By::Href)));
-    }
-    let circle = circles::on_circles(&edges).into_iter();
-    let first = circle
-        .filter(|(_, _, by)| *by == By::Href)
-        .map(|(from, _, _)| from)
-        .min();
-    root.descendants().find(|node| Some(number(*node)) == first)
-}
-
-fn is_use(node: Node<'_, '_>) -> bool {
-    node.tag_name().name() == "use"
-}
-
-/// The elements by their ids; of two with one id the first.
-fn by_id<'doc>(root: Node<'doc, 'doc>) -> HashMap<&'doc str, Node<'doc, 'doc>> {
-    let mut ids = HashMap::new();
-    for node in root.descendants().filter(Node::is_element) {
-        if let Some(id) = node.attribute("id") {
-            ids.entry(id).or_insert(node);
-        }
-    }
-    ids
+    Ok(())
 }
 
 struct Search<'s, 'doc> {
-    styles: &'s Styles<'doc>,
-    ids: &'s HashMap<&'doc str, Node<'doc, 'doc>>,
+    graph: &'s Graph<'doc>,
     /// What has been looked at; `None` while it is being looked at.
     done: HashMap<NodeId, Option<Found>>,
     /// Of usvg's search for circles.
     steps: u64,
     /// How many references there are, of which usvg compares each with each.
     references: u64,
-    /// Paint servers that elements hand down.
-    inherited: HashMap<usize, [Option<&'doc str>; 2]>,
     /// References to what is not there.
     unmet: Vec<Unmet<'doc>>,
-    has_circles: bool,
-}
-
-/// A reference to what is not there.
-struct Unmet<'doc> {
-    node: Node<'doc, 'doc>,
-    by: By,
-    id: &'doc str,
 }
 
 /// The name of what refers to something, where nothing else tells that it is not there.
@@ -189,11 +126,6 @@ fn instead<'doc>(node: Node<'doc, 'doc>, property: &str, id: &str) -> Option<&'d
     Some(instead.trim()).filter(|instead| !instead.is_empty())
 }
 
-/// Whether it is a gradient or a pattern.
-fn is_server(node: Node<'_, '_>) -> bool {
-    matches!(node.tag_name().name(), "linearGradient" | "radialGradient" | "pattern")
-}
-
 impl<'doc> Search<'_, 'doc> {
     fn run<L: Listener>(&mut self, root: Node<'doc, 'doc>, listener: &L) -> Result<(), Fault> {
         let whole = Link {
@@ -210,7 +142,8 @@ impl<'doc> Search<'_, 'doc> {
                         last.found.add(link.by, found, times);
                         self.count(link.by, found, times);
                     }
-                    Some(None) => self.has_circles = true,
+                    // Such as the place that a link leads to; nothing is drawn of it here.
+                    Some(None) => {}
                     None => {
                         if open.len() >= MAX_DEPTH {
                             let what = DEEP;
@@ -262,24 +195,11 @@ impl<'doc> Search<'_, 'doc> {
         }
     }
 
-    /// Everything that leads from element to element, but for markers: usvg draws none inside of itself.
-    fn edges(&self, root: Node<'doc, 'doc>) -> Vec<circles::Edge> {
-        let nodes = root.descendants().filter(Node::is_element);
-        let edges = nodes.flat_map(|node| {
-            let from = node.id().get_usize();
-            let links = self.links(node, &mut Vec::new()).into_iter();
-            links.map(move |link| (from, link.to.id().get_usize(), link.by))
-        });
-        edges
-            .filter(|(_, _, by)| !matches!(by, By::Marker | By::EndMarker))
-            .collect()
-    }
-
     fn open(&mut self, link: Link<'doc>, times: u64) -> Open<'doc> {
         let Link { by, to } = link;
         self.done.insert(to.id(), None);
         let mut unmet = std::mem::take(&mut self.unmet);
-        let links = self.links(to, &mut unmet);
+        let links = self.graph.links(to, &mut unmet);
         self.unmet = unmet;
         Open {
             node: to,
@@ -289,37 +209,7 @@ impl<'doc> Search<'_, 'doc> {
             found: Found::alone(to),
         }
     }
-
-    /// What is inside an element, and what it refers to; markers after all that they may be drawn on. Notes what is not there.
-    fn links(&self, node: Node<'doc, 'doc>, unmet: &mut Vec<Unmet<'doc>>) -> Vec<Link<'doc>> {
-        let inside = |to| Link { by: By::Inside, to };
-        let mut links: Vec<Link<'doc>> = node.children().filter(Node::is_element).map(inside).collect();
-        for (by, id) in self.styles.references(node) {
-            match self.ids.get(id) {
-                Some(to) => links.push(Link { by, to: *to }),
-                None => unmet.push(Unmet { node, by, id }),
-            }
-        }
-        links.sort_by_key(|link| match link.by {
-            By::Inside | By::Href => 0,
-            By::Marker | By::EndMarker => 1,
-            _ => 2,
-        });
-        // What stands elsewhere is painted as what is around it there; and each shape has paints of its own.
-        let is_definition = DEFINITIONS.contains(&node.tag_name().name());
-        if is_definition || !node.has_children() {
-            let parent = node.parent_element().map(|parent| parent.id().get_usize());
-            let paints = parent.and_then(|parent| self.inherited.get(&parent));
-            let around = paints.into_iter().flatten().flatten().filter_map(|id| self.ids.get(id));
-            let by = if is_definition { By::Inherited } else { By::Fill };
-            links.extend(around.map(|to| Link { by, to: *to }));
-        }
-        links
-    }
 }
-
-/// Elements that are drawn elsewhere, but with what they inherit where they stand.
-const DEFINITIONS: [&str; 3] = ["pattern", "marker", "mask"];
 
 impl Found {
     /// An element without what is inside and what it refers to.

@@ -195,7 +195,7 @@ mod tests {
                     let combinator = *u.choose(&[" ", " > ", " + ", ", "])?;
                     selector = format!("{selector}{combinator}{}", compound(u)?);
                 }
-                css += &format!("{selector} {{ fill: #{number:03} }}\n");
+                css = format!("{css}{selector} {{ fill: #{number:03} }}\n");
             }
             let mut body = String::new();
             for _ in 0..u.int_in_range(1..=9)? {
@@ -240,9 +240,8 @@ mod tests {
 
     #[test]
     fn elements_are_compared_only_with_rules_that_may_be_theirs() {
-        let css: String = (0..100)
-            .map(|i| format!(".c{i}{{fill:red}} #i{i}{{fill:red}} n{i}{{fill:red}}"))
-            .collect();
+        let rule = |i: usize| format!(".c{i}{{fill:red}} #i{i}{{fill:red}} n{i}{{fill:red}}");
+        let css: String = (0..100).map(rule).collect();
         let text = format!("<svg><style>{css}</style><n1 class='c2 c3' id='i4'/></svg>");
         let document = roxmltree::Document::parse(&text).expect("well-formed");
         let rules = Rules::below(document.root_element());

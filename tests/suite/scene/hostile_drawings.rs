@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use rasterscope::scene::DialectChoice;
 
-use crate::support::documents::{svg, try_read};
+use crate::support::documents::{kinds, lines, svg, svg_scene, try_read};
 
 /// The longest that any of these may take on a busy machine, in seconds.
 const SOON: f64 = 10.0;
@@ -232,8 +232,25 @@ fn markers_count_once_for_each_path() {
     );
 }
 
+/// The lines that are told of a drawing, which is read soon.
+fn told(what: &str, body: &str) -> Vec<String> {
+    let started = Instant::now();
+    let scene = svg_scene(body);
+    let seconds = started.elapsed().as_secs_f64();
+    assert!(seconds < SOON, "{what}: {seconds} s");
+    assert!(!scene.primitives.is_empty(), "{what}: the rest is drawn");
+    lines(&scene)
+}
+
+/// How many of them are told of references in circles.
+fn count_of_circles(told: &[String]) -> usize {
+    told.iter()
+        .filter(|line| line.contains("which leads in a circle back to here"))
+        .count()
+}
+
 #[test]
-fn references_in_circles_end() {
+fn references_in_circles_have_no_effect() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {
             let next = (i + 1) % length;
@@ -248,59 +265,105 @@ fn references_in_circles_end() {
         ("pattern", "stroke"),
     ] {
         for length in [1, 2, 3, 50] {
+            let what = format!("{length} x {kind}");
             let body = format!(
-                "{}<rect width='9' height='9' {attribute}='url(#d0)'/>",
+                "{}<rect width='9' height='9' {attribute}='url(#d0)'/><circle r='3'/>",
                 circle(kind, attribute, length)
             );
-            let line = outcome(&format!("{length} x {kind}"), &body);
-            assert_eq!(
-                line.contains("lead in a circle"),
-                length > 2,
-                "{length} x {kind}: {line}"
-            );
+            let told = told(&what, &body);
+            assert_eq!(count_of_circles(&told), length, "{what}: {told:?}");
         }
     }
-    for (what, body) in [
+}
+
+#[test]
+fn references_of_many_kinds_in_circles_are_told() {
+    let shape = "<rect width='9' height='9'/>";
+    for (what, count, body) in [
         (
             "two kinds",
+            2,
             "<pattern id='a' width='1' height='1'><rect width='1' height='1' stroke='url(#b)'/></pattern>\
-                       <pattern id='b' width='1' height='1'><rect width='1' height='1' fill='url(#a)'/></pattern><rect width='9' height='9' fill='url(#b)'/>",
+             <pattern id='b' width='1' height='1'><rect width='1' height='1' fill='url(#a)'/></pattern><rect width='9' height='9' fill='url(#b)'/>",
         ),
         (
             "by a style sheet",
+            3,
             "<style>.x{mask:url(#a)}.y{mask:url(#b)}.z{mask:url(#c)}</style>\
-                       <mask id='a'><rect class='y' width='9' height='9'/></mask><mask id='b'><rect class='z' width='9' height='9'/></mask>\
-                       <mask id='c'><rect class='x' width='9' height='9'/></mask><rect class='x' width='9' height='9'/>",
-        ),
-        (
-            "a picture by a filter",
-            "<filter id='f'><feImage href='#g'/></filter><g id='g'><g filter='url(#f)'><rect width='9' height='9'/></g></g>",
+             <mask id='a'><rect class='y' width='9' height='9'/></mask><mask id='b'><rect class='z' width='9' height='9'/></mask>\
+             <mask id='c'><rect class='x' width='9' height='9'/></mask><rect class='x' width='9' height='9'/>",
         ),
         (
             "two groups that show each other",
+            2,
             "<g id='a'><use href='#b'/><rect width='9' height='9'/></g><g id='b'><use href='#a'/></g>",
         ),
-    ] {
-        assert!(outcome(what, body).contains("lead in a circle"), "{what}");
-    }
-    for (what, body) in [
         (
             "use",
+            3,
             "<g id='a'><use href='#b'/></g><g id='b'><use href='#c'/></g><g id='c'><use href='#a'/></g>",
         ),
-        ("use of itself", "<use id='a' href='#a'/><g id='b'><use href='#b'/></g>"),
+        (
+            "use of itself",
+            2,
+            "<use id='a' href='#a'/><g id='b'><use href='#b'/></g>",
+        ),
+        (
+            "a clip path clipped by itself",
+            1,
+            "<clipPath id='c' clip-path='url(#c)'><rect width='5' height='5'/></clipPath>",
+        ),
+        ("a gradient of itself", 1, "<linearGradient id='a' href='#a'/>"),
         (
             "gradients",
+            3,
             "<linearGradient id='a' href='#b'/><linearGradient id='b' href='#c'/><linearGradient id='c' href='#a'/><rect width='9' height='9' fill='url(#a)'/>",
         ),
         (
             "markers",
+            2,
             "<marker id='a' markerWidth='9' markerHeight='9'><path d='M0 0L1 1' marker-end='url(#b)'/></marker>\
-                     <marker id='b' markerWidth='9' markerHeight='9'><path d='M0 0L1 1' marker-end='url(#a)'/></marker><path d='M0 0L9 9' stroke='red' marker-end='url(#a)'/>",
+             <marker id='b' markerWidth='9' markerHeight='9'><path d='M0 0L1 1' marker-end='url(#a)'/></marker><path d='M0 0L9 9' stroke='red' marker-end='url(#a)'/>",
+        ),
+        (
+            "a paint that is handed down",
+            1,
+            "<g fill='url(#p)'><pattern id='p' width='1' height='1'><rect width='1' height='1'/></pattern></g>",
         ),
     ] {
-        outcome(what, body);
+        let told = told(what, &format!("{body}{shape}"));
+        assert_eq!(count_of_circles(&told), count, "{what}: {told:?}");
     }
+    let picture = "<filter id='f'><feImage href='#g'/></filter><g id='g'><g filter='url(#f)'><rect width='9' height='9'/></g></g>";
+    assert!(count_of_circles(&told("a picture by a filter", &format!("{picture}{shape}"))) > 0);
+}
+
+#[test]
+fn what_stands_beside_a_circle_is_drawn_as_without_it() {
+    let pattern = "<pattern id='p' width='4' height='4' patternUnits='userSpaceOnUse'><rect width='3' height='3' LOOK/></pattern>\
+                   <rect width='9' height='9' fill='url(#p)'/>";
+    for (look, plain) in [
+        ("fill='url(#p) red'", "fill='red'"),
+        ("style='fill: url(#p) red'", "fill='red'"),
+        ("fill='url(#p)' stroke='blue'", "fill='none' stroke='blue'"),
+        // What does not count leads nowhere.
+        ("fill='url(#p)' style='fill: lime'", "fill='lime'"),
+        ("class='c' fill='url(#p)'", "fill='yellow'"),
+    ] {
+        let sheet = "<style>.c { fill: yellow } .d { fill: none }</style>";
+        let [found, expected] =
+            [look, plain].map(|look| svg_scene(&format!("{sheet}{}", pattern.replace("LOOK", look))));
+        assert_eq!(kinds(&found), kinds(&expected), "{look}");
+        let is_circle = !look.contains("lime") && !look.contains("class");
+        assert_eq!(count_of_circles(&lines(&found)), usize::from(is_circle), "{look}");
+    }
+    let around = svg_scene("<g id='a'><rect width='9' height='9'/><use href='#a' x='20'/></g>");
+    assert_eq!(around.primitives.len(), 1);
+    let told = lines(&around);
+    assert!(
+        told.len() == 1 && told[0].contains("not drawn: its href refers to #a, which leads in a circle back to here"),
+        "{told:?}"
+    );
 }
 
 #[test]

@@ -253,7 +253,8 @@ fn letters_along_paths_are_drawn_or_missed() {
 
 /// Enough shapes for rules to be written into the styles of elements; the first ones are those of `body`.
 fn crowded(css: &str, body: &str) -> Scene {
-    let rules: String = (0..2_000).map(|i| format!(".unused{i}{{fill:#{i:06x}}}")).collect();
+    let rule = |i: usize| format!(".unused{i}{{fill:#{i:06x}}}");
+    let rules: String = (0..2_000).map(rule).collect();
     let crowd = "<rect class='crowd' width='0' height='0'/>".repeat(6_000);
     svg_scene(&format!("<style>{css}{rules}</style>{body}<g>{crowd}</g>"))
 }
@@ -285,7 +286,8 @@ fn many_rules_and_shapes_look_as_few_do() {
 
 #[test]
 fn hundreds_of_classes_for_a_hundred_thousand_shapes_are_read() {
-    let rules: String = (0..700).map(|i| format!(".st{i}{{fill:#{i:06x}}}")).collect();
+    let rule = |i: usize| format!(".st{i}{{fill:#{i:06x}}}");
+    let rules: String = (0..700).map(rule).collect();
     let shape = |i: usize| format!("<path class='st{}' d='M0 0h1v1z'/>", i % 700);
     let shapes: String = (0..100_000).map(shape).collect();
     let scene = svg_scene(&format!("<style>{rules}</style>{shapes}"));

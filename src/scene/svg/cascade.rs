@@ -16,10 +16,10 @@ use simplecss::{Declaration, DeclarationTokenizer};
 
 use super::elements::Elements;
 use super::graph::Circular;
-use super::rules::Rules;
+use super::rules::{self, Rules};
 use super::{nonsense, styles, transforms, values};
 use crate::scene::Problem;
-use crate::scene::edits::Edits;
+use crate::scene::edits::{Edits, escaped};
 
 /// The largest length that is taken over, in user units.
 const FAR: f64 = 1e7;
@@ -86,7 +86,7 @@ impl<'doc> Cascade<'doc> {
     /// What is wrong where all of this takes too long.
     pub(super) fn excess(&self) -> Option<Problem> {
         let is_too_long = self.cost.get() > styles::MAX_COST;
-        styles::too_many(self.steps.get()).or_else(|| is_too_long.then(styles::too_long))
+        rules::too_many(self.steps.get()).or_else(|| is_too_long.then(styles::too_long))
     }
 
     /// What styles say of `node`; `elements` are those of the document, and `circular` its references that lead in circles.
@@ -333,19 +333,4 @@ fn is_taken(value: &str) -> bool {
 pub(super) fn is_missing(value: &str, elements: &Elements<'_>) -> bool {
     let is_filter = |id| elements.own(id).is_some_and(|node| node.tag_name().name() == "filter");
     values::reference(value).is_some_and(|id| !is_filter(id))
-}
-
-/// A value as it stands in an attribute in double or single quotes.
-pub(super) fn escaped(value: &str) -> String {
-    let mut escaped = String::with_capacity(value.len());
-    for c in value.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&apos;"),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -9,10 +9,9 @@ use std::ops::Range;
 use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
-use super::cascade::{Styled, escaped};
 use super::{own_triangles, sheets, values};
 use crate::scene::declarations::NESTED;
-use crate::scene::edits::Edits;
+use crate::scene::edits::{Edits, escaped};
 use crate::scene::media;
 use crate::scene::report::quote;
 use crate::scene::selectors::written;
@@ -24,12 +23,13 @@ pub(super) const UNREAD: &str = "unread-";
 /// Properties of which usvg makes something else where it does not understand them.
 const MISTAKEN: [&str; 5] = ["fill", "stroke", "color", "stop-color", "stroke-dasharray"];
 
-/// Takes such values that `node` has, as attributes or in its style, out of `text`. `styled` says what it has from styles instead.
-pub(super) fn hide(text: &str, node: Node<'_, '_>, styled: &Styled<'_>, edits: &mut Edits) {
+/// Takes such values that `node` has, as attributes or in its style, out of `text`. Lengths that it
+/// has from styles instead stay.
+pub(super) fn hide(text: &str, node: Node<'_, '_>, is_from_styles: impl Fn(&str) -> bool, edits: &mut Edits) {
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
         let (name, value) = (attribute.name(), attribute.value());
         // Outlines of the course's triangles are written anew.
-        let is_written = styled.has_length(name) || own_triangles::is_one(node) && matches!(name, "d" | "points");
+        let is_written = is_from_styles(name) || own_triangles::is_one(node) && matches!(name, "d" | "points");
         if is_written {
             continue;
         }

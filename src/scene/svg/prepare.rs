@@ -360,7 +360,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
 
     /// Takes their names from values that usvg would make something else of.
     fn hide_nonsense(&mut self, node: Node<'doc, 'doc>, styled: &Styled<'doc>) {
-        nonsense::hide(self.text, node, styled, &mut self.edits);
+        nonsense::hide(self.text, node, |name| styled.has_length(name), &mut self.edits);
         if node.tag_name().name() == "style" {
             cascade::unmark_sheet(self.text, node, &mut self.edits);
             let (cuts, between) = sheets::cuts(self.text, node).unwrap_or_default();

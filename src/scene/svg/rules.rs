@@ -7,8 +7,11 @@ use std::collections::HashMap;
 use roxmltree::Node;
 use simplecss::{AttributeOperator, Declaration, Element, PseudoClass, Selector, StyleSheet};
 
-use super::sheets;
-use super::styles::Counted;
+use super::{marked, sheets};
+use crate::scene::Problem;
+
+/// Most steps of comparing elements with the rules of style sheets.
+const MAX_STEPS: u64 = 60_000_000;
 
 /// Rules with something of each, the weightiest last.
 #[derive(Debug)]
@@ -100,6 +103,61 @@ impl<'doc, T> Rules<'doc, T> {
             steps.set(steps.get() + 1);
             selector.matches(&Counted { node, steps }).then_some(what)
         })
+    }
+}
+
+/// What is wrong where elements are compared with rules in so many steps.
+pub(super) fn too_many(steps: u64) -> Option<Problem> {
+    (steps > MAX_STEPS).then(|| Problem::TooMuch {
+        what: "comparisons of elements with style sheets",
+        limit: usize::try_from(MAX_STEPS).unwrap_or(usize::MAX),
+        cure: "select by classes and ids, or by fewer rules",
+    })
+}
+
+/// An element that counts how often it, and those around it, are asked.
+struct Counted<'c, 'doc> {
+    node: Node<'doc, 'doc>,
+    steps: &'c Cell<u64>,
+}
+
+impl Counted<'_, '_> {
+    /// Counts a step; whether there may be more.
+    fn step(&self) -> bool {
+        self.steps.set(self.steps.get() + 1);
+        self.steps.get() <= MAX_STEPS
+    }
+}
+
+impl Element for Counted<'_, '_> {
+    fn parent_element(&self) -> Option<Self> {
+        let node = self.node.parent_element().filter(|_| self.step())?;
+        Some(Self {
+            node,
+            steps: self.steps,
+        })
+    }
+
+    fn prev_sibling_element(&self) -> Option<Self> {
+        let node = self.node.prev_sibling_element().filter(|_| self.step())?;
+        Some(Self {
+            node,
+            steps: self.steps,
+        })
+    }
+
+    fn has_local_name(&self, name: &str) -> bool {
+        self.step();
+        self.node.tag_name().name() == name
+    }
+
+    fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
+        self.step();
+        marked::attribute_matches(self.node, name, operator)
+    }
+
+    fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
+        class == PseudoClass::FirstChild && self.node.prev_sibling_element().is_none()
     }
 }
 

@@ -4,11 +4,10 @@ use std::cell::Cell;
 use std::collections::HashMap;
 
 use roxmltree::{Node, NodeId};
-use simplecss::{AttributeOperator, PseudoClass};
 
 use super::listener::Listener;
-use super::rules::Rules;
-use super::{marked, nonsense, sheets};
+use super::rules::{self, Rules};
+use super::{nonsense, sheets};
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
@@ -16,9 +15,6 @@ use crate::scene::{Problem, attributes};
 const MAX_PASSED: u64 = 3_000_000_000;
 /// How often a `style` attribute is read, here and by usvg; and how often a style sheet.
 const READINGS: [u64; 2] = [7, 5];
-
-/// Most steps of comparing elements with the rules of style sheets.
-const MAX_STEPS: u64 = 60_000_000;
 
 /// How elements refer to each other. usvg looks for circles of one kind at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,7 +52,7 @@ impl<'doc> Styles<'doc> {
         let steps = Cell::new(0);
         for node in root.descendants().filter(Node::is_element) {
             all.matching(node, &steps).for_each(drop);
-            if let Some(problem) = too_many(steps.get()) {
+            if let Some(problem) = rules::too_many(steps.get()) {
                 return Err(listener.fault(problem, node, ""));
             }
         }
@@ -131,15 +127,6 @@ pub(super) fn too_long() -> Problem {
     let what = "bytes to pass over while styles are read, where each value counts all before it";
     let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
     Problem::TooMany { what, limit }
-}
-
-/// What is wrong where elements are compared with rules in so many steps.
-pub(super) fn too_many(steps: u64) -> Option<Problem> {
-    (steps > MAX_STEPS).then(|| Problem::TooMuch {
-        what: "comparisons of elements with style sheets",
-        limit: usize::try_from(MAX_STEPS).unwrap_or(usize::MAX),
-        cure: "select by classes and ids, or by fewer rules",
-    })
 }
 
 /// Refuses styles that take too long to read: at the end of every value simplecss counts lines from the beginning of its
@@ -230,50 +217,4 @@ fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str
             Some((by, address.strip_prefix('#')?))
         })
     })
-}
-
-/// An element that counts how often it, and those around it, are asked.
-pub(super) struct Counted<'c, 'doc> {
-    pub(super) node: Node<'doc, 'doc>,
-    pub(super) steps: &'c Cell<u64>,
-}
-
-impl Counted<'_, '_> {
-    /// Counts a step; whether there may be more.
-    fn step(&self) -> bool {
-        self.steps.set(self.steps.get() + 1);
-        self.steps.get() <= MAX_STEPS
-    }
-}
-
-impl simplecss::Element for Counted<'_, '_> {
-    fn parent_element(&self) -> Option<Self> {
-        let node = self.node.parent_element().filter(|_| self.step())?;
-        Some(Self {
-            node,
-            steps: self.steps,
-        })
-    }
-
-    fn prev_sibling_element(&self) -> Option<Self> {
-        let node = self.node.prev_sibling_element().filter(|_| self.step())?;
-        Some(Self {
-            node,
-            steps: self.steps,
-        })
-    }
-
-    fn has_local_name(&self, name: &str) -> bool {
-        self.step();
-        self.node.tag_name().name() == name
-    }
-
-    fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
-        self.step();
-        marked::attribute_matches(self.node, name, operator)
-    }
-
-    fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
-        class == PseudoClass::FirstChild && self.node.prev_sibling_element().is_none()
-    }
 }

@@ -42,6 +42,9 @@ struct Report {
     reach: f64,
     /// The strongest waves, the strongest first.
     peaks: Vec<PeakReport>,
+    /// The number that all pixels have, if they have one.
+    #[serde(skip)]
+    constant: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -197,6 +200,7 @@ impl Report {
             region: [x, y, columns, rows],
             level: found.level.clone(),
             reach: analysis.reach(),
+            constant: analysis.constant(),
             peaks: peaks.iter().map(|peak| PeakReport::new(peak, analysis)).collect(),
         }
     }
@@ -229,16 +233,27 @@ impl Report {
             ));
         }
         if self.peaks.is_empty() {
-            lines.push(
-                "No wave stands out: all is of one colour, edges that are waves of every length, or slow shading."
-                    .to_owned(),
-            );
+            lines.push(self.no_waves().to_owned());
             return lines.join("\n");
         }
         let unit = if self.level.is_some() { "texel" } else { "pixel" };
         lines.push(format!("cycles per {unit}: across    down  wavelength   angle      dB"));
         lines.extend(self.peaks.iter().map(PeakReport::line));
         lines.join("\n")
+    }
+
+    /// Why there are none to list.
+    fn no_waves(&self) -> &'static str {
+        let is_difference = self.of == SpectrumOf::Difference.name();
+        match (self.constant, is_difference) {
+            (Some(0.0), true) => "No waves: the picture is the truth here.",
+            (Some(_), true) => "No waves: all differs from the truth by the same.",
+            (Some(_), false) => "No waves: all is of one colour.",
+            (None, true) => {
+                "No wave stands out: the error is that of edges, which are waves of every length, or slow shading."
+            }
+            (None, false) => "No wave stands out: there are edges, which are waves of every length, or slow shading.",
+        }
     }
 
     /// The waves in RFC 4180; what is not there is empty.

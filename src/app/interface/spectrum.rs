@@ -92,7 +92,7 @@ impl SpectrumCard {
                         match found {
                             Some(found) => {
                                 reading = self.plot.show(ui, found, side, spectrum.is_current());
-                                words(ui, found, reading.as_ref());
+                                words(ui, found, spectrum.is_of_a(), reading.as_ref());
                                 legend(ui, found);
                             }
                             None => {
@@ -160,8 +160,7 @@ fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
                of the scene before pixels sample it. The difference costs a drawing with 256 samples for each pixel.";
     let chosen = choice(ui, "Spectrum of", tip, spectrum.of(), &values);
     commands.extend(chosen.map(SpectrumCommand::Of).map(Command::Spectrum));
-    let frame = viewer.both().layout().frame_size();
-    let values = SpectrumPart::ALL.map(|part| (Some(part), words_of(part, frame).to_owned()));
+    let values = SpectrumPart::ALL.map(|part| (Some(part), words_of(part, spectrum.free()).to_owned()));
     // Of a texture it is neither.
     let current = Some(spectrum.part()).filter(|_| spectrum.of() != SpectrumOf::Texture);
     let tip = |part: Option<SpectrumPart>| match (spectrum.of(), part) {
@@ -174,26 +173,26 @@ fn choices(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 }
 
 /// What the parts are.
-const PARTS: &str = "Of the whole frame, or of its middle where it is larger than 512 x 512 pixels; or of 128 x 128 pixels around the \
-                     pinned one. Fewer pixels cost less, and tell fewer frequencies apart.";
+const PARTS: &str = "Of what panels leave free of the picture, or of the middle of that where it is larger than 512 x 512 pixels; \
+                     or of 128 x 128 pixels around the pinned one. Fewer pixels cost less, and tell fewer frequencies apart.";
 /// Why there is no part around the pin.
 const NO_PIN: &str = "No pixel is pinned: pin one by a right click in the picture.";
 /// Why no part can be chosen of a texture.
 const NO_PART: &str = "That of a texture is of a whole mip level, or of 512 x 512 texels of it around what the pixel reads, whatever \
                        part of the frame is chosen.";
 
-/// The name of a part in a frame of this size.
-fn words_of(part: SpectrumPart, frame: [u32; 2]) -> &'static str {
-    let whole = Region::of_size(frame);
+/// The name of a part where panels leave this much of the frame free, which may be all of it.
+fn words_of(part: SpectrumPart, (free, is_all): (Region, bool)) -> &'static str {
     match part {
-        SpectrumPart::Whole if SpectrumAnalysis::middle_of(whole) == whole => "whole frame",
-        SpectrumPart::Whole => "frame's middle",
+        SpectrumPart::Whole if SpectrumAnalysis::middle_of(free) != free => "frame's middle",
+        SpectrumPart::Whole if is_all => "whole frame",
+        SpectrumPart::Whole => "free picture",
         SpectrumPart::Pin => "around the pin",
     }
 }
 
-/// Two lines below the plot: the wave that is pointed at, or what was transformed.
-fn words(ui: &mut Ui, found: &SpectrumFound, reading: Option<&SpectrumReading>) {
+/// Two lines below the plot: the wave that is pointed at, or what was transformed, of A beside B if `of_a`.
+fn words(ui: &mut Ui, found: &SpectrumFound, of_a: bool, reading: Option<&SpectrumReading>) {
     let whole = || {
         let region = found.analysis.region();
         let size = format!("{} \u{d7} {}", region.width, region.height);
@@ -201,7 +200,14 @@ fn words(ui: &mut Ui, found: &SpectrumFound, reading: Option<&SpectrumReading>) 
             Some(level) => format!("{level}: {size} texels"),
             None => format!("{size} pixels from {}, {}", region.x, region.y),
         };
-        [first, "Point at a frequency to see its wave".to_owned()]
+        let second = match (found.analysis.constant(), found.analysis.of()) {
+            (Some(0.0), SpectrumOf::Difference) if of_a => "A is the truth here: no error",
+            (Some(0.0), SpectrumOf::Difference) => "The frame is the truth here: no error",
+            (Some(_), SpectrumOf::Difference) => "All differs from the truth by the same: no waves",
+            (Some(_), _) => "All is of one colour: no waves",
+            (None, _) => "Point at a frequency to see its wave",
+        };
+        [first, second.to_owned()]
     };
     for line in reading.map_or_else(whole, |reading| told(found, reading)) {
         ui.add(egui::Label::new(RichText::new(line).small().weak()).truncate());

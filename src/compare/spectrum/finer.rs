@@ -16,6 +16,7 @@ use rustfft::num_complex::Complex;
 
 use super::fourier::transform_low;
 use super::from_corner;
+use super::luma::luma;
 use super::waves::Spectrum;
 use crate::geometry::ViewTransform;
 use crate::raster::{Framebuffer, Region, ResolveFilter, SamplePattern, SampleRate};
@@ -39,15 +40,27 @@ const OWN: f32 = 0.5;
 pub(super) fn scene(subject: &Subject<'_>, region: Region) -> Option<Spectrum> {
     let size = [region.width, region.height];
     let [across, down] = size.map(squares);
-    let [waves, others] = [0, 1].map(|drawing: usize| {
+    let [first, second] = [0, 1].map(|drawing: usize| {
         let frame = drawn(subject, region, [across[drawing], down[drawing]])?;
-        Some(transform_low(&frame, size.map(|side| (side * FINENESS) as usize)))
+        let waves = transform_low(&frame, size.map(|side| (side * FINENESS) as usize));
+        Some((constant(&frame), waves))
     });
-    let (mut waves, others) = (waves?, others?);
+    let ((constant, mut waves), (_, others)) = (first?, second?);
+    if constant.is_some() {
+        // What rounding made of its mean.
+        waves.fill(Complex::default());
+        return Some(Spectrum::of_finer(waves, size, FINENESS).with_constant(constant));
+    }
     let ghosts = strongest_ghost(&waves, &others, size);
     let both = waves.par_iter_mut().with_min_len(4096).zip(&others);
     both.for_each(|(wave, other)| *wave *= shared(*wave, *other));
     Some(Spectrum::of_finer(waves, size, FINENESS).with_ghosts(ghosts))
+}
+
+/// The luma of all pixels, where they are of one colour.
+fn constant(frame: &Framebuffer) -> Option<f32> {
+    let (first, rest) = frame.pixels().split_first()?;
+    rest.iter().all(|pixel| pixel == first).then(|| luma(*first))
 }
 
 /// The part of the first wave that the second has in step with it, `0.0..=1.0`.

@@ -40,6 +40,14 @@ impl LumaPlane {
         }
     }
 
+    /// The number that all of them are; `None` where they differ.
+    pub(super) fn constant(&self) -> Option<f32> {
+        let (first, rest) = self.values.split_first()?;
+        // Bit for bit: what differs at all has waves.
+        let is_first = |value: &f32| value.total_cmp(first).is_eq();
+        rest.iter().all(is_first).then_some(*first)
+    }
+
     /// What is left of it without `other`, which has its size.
     pub(super) fn minus(mut self, other: &Self) -> Self {
         for (value, other) in self.values.iter_mut().zip(&other.values) {
@@ -83,6 +91,9 @@ mod tests {
         let level = MipLevel::new(2, 2, vec![[0, 0, 0, 0], [0, 0, 0, 255], [9, 9, 9, 255], [0, 0, 0, 127]]);
         let texels = LumaPlane::of_level(&level, Region::of_size([2, 2]));
         near(&texels.values, [255.0, 0.0, 9.0, 128.0]);
+        assert_eq!(plane.constant(), None, "several values");
+        let nothing = plane.clone().minus(&plane);
+        assert_eq!(nothing.constant(), Some(0.0), "nothing is left");
         near(&texels.minus(&plane).values, [250.0, -6.0, 0.0, 118.0]);
     }
 }

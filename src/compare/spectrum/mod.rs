@@ -186,6 +186,12 @@ impl SpectrumAnalysis {
         Some(Self { scene, ..self })
     }
 
+    /// The number that all pixels have, in levels of 255, which is a difference of [`SpectrumOf::Difference`]; `None` where they
+    /// differ. Only then are there waves.
+    pub fn constant(&self) -> Option<f64> {
+        self.own.constant()
+    }
+
     /// What it is of.
     pub fn of(&self) -> SpectrumOf {
         self.of
@@ -222,7 +228,7 @@ impl SpectrumAnalysis {
     }
 
     /// The strongest wave of those whose frequency is at most `near` away along each axis, in the same unit; `None` beyond the
-    /// highest.
+    /// highest, and where there is no wave.
     pub fn strongest_near(&self, frequency: [f64; 2], near: f64) -> Option<SpectrumReading> {
         let middle = self.own.order(frequency)?;
         let [across, down] = self.own.size().map(|side| near.abs() * f64::from(side));
@@ -230,7 +236,8 @@ impl SpectrumAnalysis {
         let places = (-down..=down).flat_map(|y| (-across..=across).map(move |x| [middle[0] + x, middle[1] + y]));
         let known = places.filter(|order| self.own.is_shown(*order));
         let strongest = known.max_by(|a, b| self.height(*a).total_cmp(&self.height(*b)));
-        Some(self.reading(strongest.unwrap_or(middle)))
+        let reading = self.reading(strongest.unwrap_or(middle));
+        Some(reading).filter(|reading| !reading.wave.is_nothing())
     }
 
     /// The strongest waves, at most `count`, the strongest first. Shading that is slower than three periods is none.

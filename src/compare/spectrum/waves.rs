@@ -60,6 +60,11 @@ impl Wave {
         decibels(self.amplitude)
     }
 
+    /// Whether it is so weak that there is none.
+    pub fn is_nothing(&self) -> bool {
+        self.decibels() <= NOTHING
+    }
+
     /// Its value at a place in pixels from the corner of what was transformed, in levels of 255.
     pub fn value_at(&self, [x, y]: [f64; 2]) -> f64 {
         self.amplitude * (TAU * (self.frequency[0] * x + self.frequency[1] * y) + self.phase).cos()
@@ -82,6 +87,8 @@ pub(super) struct Spectrum {
     shown: u32,
     /// As strong a wave may be a ghost: its amplitude.
     ghosts: f64,
+    /// The number that all pixels have, in levels of 255: then there are no waves.
+    constant: Option<f64>,
     /// Where the place lies from which phases count, in pixels from the corner along each axis.
     origin: f64,
     /// Amplitude and phase of each frequency, in the order of [`transform`].
@@ -102,8 +109,10 @@ impl Spectrum {
         let sum: f64 = weighed
             .map(|(value, weight)| f64::from(*value) * f64::from(weight))
             .sum();
+        let constant = plane.constant();
         #[expect(clippy::cast_possible_truncation, reason = "levels of 255")]
-        let mean = (sum / gain.max(f64::MIN_POSITIVE)) as f32;
+        // A rounded mean would leave waves of its own.
+        let mean = constant.unwrap_or((sum / gain.max(f64::MIN_POSITIVE)) as f32);
         for (value, weight) in plane.values.iter_mut().zip(weights()) {
             *value = (*value - mean) * weight;
         }
@@ -115,6 +124,7 @@ impl Spectrum {
             fineness: 1,
             shown: 1,
             ghosts: 0.0,
+            constant: constant.map(f64::from),
             origin: 0.5,
             waves: waves.into_iter().map(|wave| wave * scale).collect(),
         }
@@ -127,6 +137,7 @@ impl Spectrum {
             fineness,
             shown: 3,
             ghosts: 0.0,
+            constant: None,
             origin: 0.0,
             waves,
         }
@@ -138,6 +149,19 @@ impl Spectrum {
             ghosts: f64::from(amplitude),
             ..self
         }
+    }
+
+    /// The same of a plane whose numbers all are `constant`, if they are.
+    pub(super) fn with_constant(self, constant: Option<f32>) -> Self {
+        Self {
+            constant: constant.map(f64::from),
+            ..self
+        }
+    }
+
+    /// The number that all pixels have, in levels of 255; `None` where they differ.
+    pub(super) fn constant(&self) -> Option<f64> {
+        self.constant
     }
 
     /// Whether the wave with so many periods across the picture may be a ghost of one that is finer than all of these.
@@ -364,7 +388,9 @@ mod tests {
         let spectrum = Spectrum::of(grating([33, 20], [0.0, 0.0], 70.0, 0.0));
         let all = spectrum.orders(1).flat_map(|y| spectrum.orders(0).map(move |x| [x, y]));
         let most = all.map(|order| spectrum.power(order)).fold(0.0, f64::max);
-        assert!(most < 1e-6, "{most}");
+        assert!(most <= 0.0, "{most}");
+        assert_eq!(spectrum.constant(), Some(170.0), "of one value");
+        assert!(spectrum.wave([3, 2]).is_nothing(), "no wave");
         assert!(spectrum.peaks(9).is_empty(), "no peak");
     }
 

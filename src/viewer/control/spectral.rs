@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::compare::{SpectrumAnalysis, SpectrumOf};
+use crate::raster::Region;
 use crate::viewer::PixelRect;
 use crate::viewer::SpectrumCommand;
 use crate::viewer::ab::other::Arrangement;
@@ -50,6 +51,13 @@ impl<'a> Spectral<'a> {
     /// Of which part of the picture.
     pub fn part(&self) -> SpectrumPart {
         self.state.part
+    }
+
+    /// The part of the frame that panels leave free, and whether that is all of the frame.
+    pub fn free(&self) -> (Region, bool) {
+        let layout = &self.pixels.both.layout;
+        let free = layout.free_region();
+        (free, free == Region::of_size(layout.frame_size()))
     }
 
     /// Whether a pixel is pinned that parts and textures can follow.
@@ -120,9 +128,10 @@ impl<'a> Spectral<'a> {
     pub(in crate::viewer) fn question(&self) -> Option<SpectrumQuestion> {
         let picture = &self.pixels.both.frames.frame().filter(|_| self.is_open())?.picture;
         let size = picture.size;
-        let pixel = self.pixels.pinned().unwrap_or(size.map(|side| side / 2));
+        let pixel = self.pixels.pinned().or_else(|| self.pixels.middle())?;
+        let free = self.pixels.both.layout.free_region();
         let place = SpectrumPlace {
-            region: self.state.part.region(size, pixel),
+            region: self.state.part.region(size, free, pixel),
             pixel,
         };
         (!size.contains(&0)).then(|| SpectrumQuestion {

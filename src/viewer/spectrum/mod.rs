@@ -9,7 +9,7 @@ use crate::viewer::spectrum::question::Spectra;
 /// Which part of the picture is transformed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SpectrumPart {
-    /// All of it, or its middle where that is large.
+    /// All of it that panels leave free, or the middle of that where it is large.
     #[default]
     Whole,
     /// A square around the pinned pixel, or around the middle while none is pinned.
@@ -30,10 +30,10 @@ impl SpectrumPart {
         }
     }
 
-    /// Its pixels, in a frame of `size`.
-    pub(in crate::viewer) fn region(self, size: [u32; 2], pixel: [u32; 2]) -> Region {
+    /// Its pixels, in a frame of `size` of which panels leave `free`.
+    pub(in crate::viewer) fn region(self, size: [u32; 2], free: Region, pixel: [u32; 2]) -> Region {
         match self {
-            Self::Whole => SpectrumAnalysis::middle_of(Region::of_size(size)),
+            Self::Whole => SpectrumAnalysis::middle_of(free.intersection(Region::of_size(size))),
             Self::Pin => {
                 let [(x, width), (y, height)] = [0, 1].map(|axis| {
                     let side = Self::SIDE.min(size[axis]);
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn parts_lie_in_the_frame() {
-        let around = |size, pixel| SpectrumPart::Pin.region(size, pixel);
+        let around = |size, pixel| SpectrumPart::Pin.region(size, Region::of_size(size), pixel);
         let region = |x, y, width, height| Region { x, y, width, height };
         assert_eq!(around([640, 480], [320, 100]), region(256, 36, 128, 128), "around it");
         assert_eq!(
@@ -89,7 +89,13 @@ mod tests {
             "beside the border"
         );
         assert_eq!(around([100, 60], [50, 50]), region(0, 0, 100, 60), "all of a small one");
-        let whole = SpectrumPart::Whole.region([1280, 300], [0, 0]);
-        assert_eq!(whole, region(384, 0, 512, 300), "the middle");
+        let whole = |free| SpectrumPart::Whole.region([1280, 300], free, [0, 0]);
+        assert_eq!(whole(region(0, 0, 1280, 300)), region(384, 0, 512, 300), "the middle");
+        assert_eq!(
+            whole(region(0, 20, 1000, 280)),
+            region(244, 20, 512, 280),
+            "of what panels leave"
+        );
+        assert_eq!(whole(region(0, 0, 400, 300)), region(0, 0, 400, 300), "all of that");
     }
 }

@@ -137,6 +137,21 @@ impl WindowLayout {
         [corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom]
     }
 
+    /// The pixels of that part that are wholly free; all of the frame where there are none.
+    pub(in crate::viewer) fn free_region(&self) -> Region {
+        let whole = Region::of_size(self.panes.frame);
+        if self.panes.second.is_some() || self.fixed_size.is_some() {
+            return whole;
+        }
+        let region = |free: PixelRect| {
+            let (x, y) = (u32::try_from(free.x).ok()?, u32::try_from(free.y).ok()?);
+            let PixelRect { width, height, .. } = free;
+            Some(Region { x, y, width, height }.intersection(whole))
+        };
+        let free = self.free_screen().and_then(region);
+        free.filter(|free| !free.is_empty()).unwrap_or(whole)
+    }
+
     /// The point in the middle of the frame, in frame pixels.
     pub(in crate::viewer) fn middle(&self) -> DVec2 {
         DVec2::from(self.panes.frame.map(f64::from)) / 2.0

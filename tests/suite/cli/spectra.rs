@@ -207,6 +207,28 @@ fn spectrum_says_what_is_wrong() {
 }
 
 #[test]
+fn spectrum_without_waves_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();
+    let plain = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="160">
+      <rect x="-99" y="-99" width="999" height="999" fill="#7a3"/></svg>"##;
+    fs::write(folder.path().join("plain.svg"), plain).unwrap();
+    for (scene, options, why) in [
+        (
+            "stripes.svg",
+            &["--of=difference", "--sample-rate=256", "--pattern=hammersley"][..],
+            "the picture is the truth here",
+        ),
+        ("plain.svg", &["--of=difference"], "the picture is the truth here"),
+        ("plain.svg", &[], "all is of one colour"),
+        ("plain.svg", &["--of=scene"], "all is of one colour"),
+    ] {
+        let said = done(folder.path(), &[&["spectrum", scene], VIEW, options].concat());
+        assert!(said.contains(why), "{options:?} of {scene}: {said}");
+    }
+}
+
+#[test]
 fn spectrum_pictures_tell_how_they_were_made() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("stripes.svg"), STRIPES).unwrap();

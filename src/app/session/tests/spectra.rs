@@ -76,6 +76,30 @@ fn spectrum_beside_b_says_whose_it_is() {
 }
 
 #[test]
+fn spectrum_of_nothing_has_no_wave_to_point_at() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/14_one_edge.svg");
+    let mut session = session(vec![path], [900, 650]);
+    for (name, value) in [("sample-rate", "256"), ("pattern", "hammersley")] {
+        session.command(Command::set(name, value).expect("a value"));
+    }
+    session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Difference)));
+    session.settle();
+    let nothing = "The frame is the truth here: no error";
+    assert!(says(&mut session, nothing), "A is the truth");
+    let middle = place_of(&mut session, "Strength of each frequency");
+    session.pointer(Some(middle + dvec2(40.0, -20.0)));
+    session.settle();
+    assert!(says(&mut session, nothing), "whatever is pointed at");
+    assert!(
+        !says(&mut session, "-160 dB") && !says(&mut session, "no single wave"),
+        "no error that is none"
+    );
+    session.command(Command::set("sample-rate", "4").expect("a value"));
+    session.settle();
+    assert!(!says(&mut session, nothing), "four samples are not the truth");
+}
+
+#[test]
 fn narrow_card_of_a_spectrum_is_as_wide_as_its_frame() {
     let mut session = session(floor(), [1100, 700]);
     session.command(Command::Inspector(InspectorCommand::Pin([560, 440])));
@@ -132,7 +156,7 @@ fn parts(session: &mut Session, whole: &str) -> [Option<bool>; 2] {
 fn parts_of_a_spectrum_are_offered_where_there_are_some() {
     let mut session = session(floor(), [1280, 800]);
     open(&mut session);
-    let (middle, whole) = ("Part: frame's middle", "Part: whole frame");
+    let (middle, whole) = ("Part: frame's middle", "Part: free picture");
     assert_eq!(parts(&mut session, middle), [Some(true), Some(false)], "no pin");
     session.command(Command::Inspector(InspectorCommand::Pin([500, 500])));
     assert_eq!(parts(&mut session, middle), [Some(true); 2], "a pin");
@@ -141,4 +165,33 @@ fn parts_of_a_spectrum_are_offered_where_there_are_some() {
     let mut small = hands::session(floor(), [500, 400]);
     open(&mut small);
     assert_eq!(parts(&mut small, whole), [Some(true), Some(false)], "all of it");
+}
+
+#[test]
+fn spectrum_is_of_pixels_that_no_panel_covers() {
+    for window in [[640, 480], [900, 650], [1280, 800]] {
+        let mut session = session(floor(), window);
+        open(&mut session);
+        for panel in [Toggle::Off, Toggle::On] {
+            session.command(Command::Window(WindowCommand::Panel(panel)));
+            session.settle();
+            let found = session.viewer.spectrum().found().expect("a spectrum");
+            let (region, free) = (found.analysis.region(), session.free_area.expect("room"));
+            let x = i64::from(region.x)..=i64::from(region.right());
+            let y = i64::from(region.y)..=i64::from(region.bottom());
+            let columns = free.x..=free.right();
+            let rows = free.y..=free.bottom();
+            let is_inside = columns.contains(x.start())
+                && columns.contains(x.end())
+                && rows.contains(y.start())
+                && rows.contains(y.end());
+            assert!(is_inside, "{region:?} of {free:?} in {window:?}, panel {panel:?}");
+            let left = x.start() - columns.start();
+            let right = columns.end() - x.end();
+            assert!(
+                (left - right).abs() <= 1,
+                "{left} and {right} columns beside it in {window:?}"
+            );
+        }
+    }
 }

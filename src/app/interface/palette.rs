@@ -165,7 +165,8 @@ fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
     if name.contains(wanted) || spec.id.contains(wanted) {
         return Some(2);
     }
-    if spec.help.to_lowercase().contains(wanted) {
+    let is_sought = || spec.sought_as.iter().any(|word| word.starts_with(wanted));
+    if spec.help.to_lowercase().contains(wanted) || is_sought() {
         return Some(4);
     }
     // The letters in their order, with others between them.
@@ -247,6 +248,16 @@ mod tests {
         ] {
             let found = names(text);
             assert_eq!(found.first().map(String::as_str), Some(first), "{text}: {found:?}");
+        }
+        for (text, name) in [
+            ("keep", "Swap A and B"),
+            ("fourier", "Spectrum"),
+            ("moire", "Spectrum"),
+            ("Moir\u{e9}", "Spectrum"),
+            ("aliasing", "Spectrum"),
+        ] {
+            let found = names(text);
+            assert!(found.iter().take(3).any(|known| known == name), "{text}: {found:?}");
         }
         let all = names("");
         assert_eq!(all.len(), commands::all().len(), "untyped, the commands only");

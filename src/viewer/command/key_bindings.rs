@@ -51,6 +51,7 @@ fn of_setting(setting: &'static PictureSetting) -> impl Iterator<Item = CommandS
         name: command.name,
         help: command.help,
         more: command.more,
+        sought_as: &[],
         group,
         keys: command.keys,
         action: command

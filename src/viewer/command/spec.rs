@@ -16,6 +16,8 @@ pub struct CommandSpec {
     pub help: &'static str,
     /// What else a tool tip says: one sentence without a full stop, or nothing.
     pub more: &'static str,
+    /// Other words by which people look for it, in small letters; they are shown nowhere.
+    pub sought_as: &'static [&'static str],
     /// Under which heading it stands.
     pub group: Group,
     /// Its keys.
@@ -145,6 +147,7 @@ pub(super) const fn spec(id: &'static str, name: &'static str, help: &'static st
         name,
         help,
         more: "",
+        sought_as: &[],
         group,
         keys: &[],
         action: Action::NeedsArgument,
@@ -161,6 +164,14 @@ impl CommandSpec {
     /// What else the tool tip says.
     pub(super) const fn more(self, more: &'static str) -> Self {
         Self { more, ..self }
+    }
+
+    /// Found by these words, too.
+    pub(super) const fn sought_as(self, words: &'static [&'static str]) -> Self {
+        Self {
+            sought_as: words,
+            ..self
+        }
     }
 
     /// Runs this.

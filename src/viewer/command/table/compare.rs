@@ -27,6 +27,7 @@ pub(super) static COMPARE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("The first press keeps the settings of now as B")
+    .sought_as(&["keep"])
     .keys(&[Chord::char('r')])
     .run(&Command::Ab(AbCommand::Swap)),
     spec(

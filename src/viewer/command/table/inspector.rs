@@ -144,6 +144,7 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
         Group::Inspector,
     )
     .more("It costs a drawing of at most 512 x 512 pixels with some 100 samples each, and transforms of them, beside the picture")
+    .sought_as(&["fourier", "moire", "moir\u{e9}", "aliasing"])
     .run(&Command::Spectrum(SpectrumCommand::Show(Toggle::Flip)))
     .argument(arguments::SPECTRUM),
 ];

@@ -80,6 +80,11 @@ impl CardCorner {
         corner
     }
 
+    /// How large it was drawn last, in points; nothing before the first time.
+    pub(super) fn drawn_size(&self) -> Vec2 {
+        self.size
+    }
+
     /// Notes how the card was drawn. Its corner is found by the size that it had: where that has changed, it is drawn once more.
     pub(super) fn drawn(&mut self, ctx: &Context, card: Rect) {
         if self.size != card.size() {

@@ -13,14 +13,17 @@
 
 use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, RichText, Sense, Ui, Vec2, vec2};
 
+use super::board::told_of_all;
 use super::controls::{choice, tip};
 use super::corner::{APART, CardCorner, below_title, wide_enough};
 use super::floating::things;
 use super::focus::FocusPanel;
 use super::look::CONTROL;
+use super::profile_line::END;
 use super::profile_plot;
 use crate::compare::{Edge, ProfileChannel};
-use crate::viewer::{Command, ProfileCommand, ProfileCurve, ProfileSide, Toggle, Viewer};
+use crate::render::RenderSettings;
+use crate::viewer::{Command, ProfileCommand, ProfileCurve, ProfileSide, Toggle, Viewer, picture};
 
 /// Free space around the card, in points.
 const MARGIN: f32 = 10.0;
@@ -83,6 +86,8 @@ pub(super) struct ProfileCard {
 pub(super) struct Shown {
     /// Where they lie, in points: other words give way.
     pub(super) taken: Vec<Rect>,
+    /// Where the card alone is.
+    pub(super) card: Option<Rect>,
     /// The pixel of the line that the pointer is over in the plot.
     pub(super) pixel: Option<[u32; 2]>,
 }
@@ -101,10 +106,12 @@ impl ProfileCard {
         let height = (free.height() * 0.24).clamp(HEIGHTS[0], HEIGHTS[1]);
         let rows = (1 + curves.len()) as f32 * ROW;
         let hint = hint(&curves);
+        let false_colors = false_colors(viewer);
         let size = if hint.is_some() {
             vec2(width + FRAME, 64.0)
         } else {
-            vec2(width + FRAME, height + rows + BESIDES)
+            let words = if false_colors.is_some() { ROW } else { 0.0 };
+            vec2(width + FRAME, height + rows + words + BESIDES)
         };
         let corner = self.choose(ui, viewer, room, size);
         let mut pixel = None;
@@ -129,6 +136,9 @@ impl ProfileCard {
                         channels(ui, viewer.profile().channel(), commands);
                         pixel = profile_plot::show(ui, viewer, &curves, vec2(width, height));
                         numbers(ui, &curves, viewer.profile().channel());
+                        if let Some(words) = &false_colors {
+                            ui.label(RichText::new(words).small().weak());
+                        }
                     });
                 });
             });
@@ -139,20 +149,42 @@ impl ProfileCard {
         let line = pieces.map(|piece| Rect::from_two_pos(piece[0], piece[1]).expand(APART / 2.0));
         Shown {
             taken: line.chain([area.response.rect]).collect(),
+            card: Some(area.response.rect),
             pixel,
         }
     }
 
-    /// The corner where it lies, beside the line.
+    /// The corner where it lies, beside the line. Where it covers some of the line anywhere: where it leaves the ends free, which
+    /// can be dragged, then where it covers least.
     fn choose(&mut self, ui: &Ui, viewer: &Viewer, room: Rect, size: Vec2) -> Align2 {
         let scale = ui.pixels_per_point();
         let line = along(viewer, scale);
         let things = things(viewer, scale);
+        // It may be higher than was thought.
+        let size = size.max(self.corner.drawn_size());
         self.corner.choose(size, room, |place| {
-            let hidden = line.iter().filter(|at| place.contains(**at)).count();
-            (hidden, things.iter().filter(|other| other.intersects(place)).count())
+            let card = place.shrink(APART);
+            let hidden = |rect: Rect| line.iter().filter(|at| rect.contains(**at)).count();
+            let panes = line.chunks(usize::from(PARTS) + 1);
+            let ends = panes.flat_map(|line| line.first().into_iter().chain(line.last()));
+            let ends = ends.filter(|end| card.expand(END).contains(**end)).count();
+            let others = things.iter().filter(|other| other.intersects(place)).count();
+            (ends, hidden(card), hidden(place), others)
         })
     }
+}
+
+/// What false colours are measured; `None` where they are those of the scene.
+fn false_colors(viewer: &Viewer) -> Option<String> {
+    let (settings, ab) = (viewer.settings(), viewer.ab());
+    let words = picture::false_colors(settings)?;
+    let has_them = |other: RenderSettings| other.visualisation == settings.render.visualisation;
+    let all = ab.other().is_none() || ab.other_settings(settings).is_some_and(has_them);
+    Some(if all {
+        told_of_all(&words)
+    } else {
+        format!("In A: {words}.")
+    })
 }
 
 /// What is said where there is nothing to plot.

@@ -7,7 +7,7 @@ use super::places::{beside_insets, points};
 use crate::viewer::Viewer;
 
 /// Radius of an end, in points: the pixel inside is to be seen.
-const END: f32 = 5.0;
+pub(super) const END: f32 = 5.0;
 /// Radius of the mark of a pixel that the pointer is over in the plot, in points.
 const MARK: f32 = 4.0;
 /// Line and ends on any ground, the widest line first.

@@ -14,6 +14,7 @@
 
 use egui::{Align, Area, Button, Color32, Frame, Id, Layout, Order, Rect, RichText, Sense, Ui, vec2};
 
+use super::board::told_of_all;
 use super::controls::{choice, choice_where, tip};
 use super::corner::{CardCorner, below_title, wide_enough};
 use super::floating::things;
@@ -22,7 +23,7 @@ use super::look::CONTROL;
 use super::spectrum_plot::SpectrumPlot;
 use crate::compare::{Band, DECIBELS, SpectrumAnalysis, SpectrumOf, SpectrumReading, scale_color};
 use crate::raster::Region;
-use crate::viewer::{Command, SpectrumCommand, SpectrumFound, SpectrumPart, Toggle, Viewer};
+use crate::viewer::{Command, SpectrumCommand, SpectrumFound, SpectrumPart, Toggle, Viewer, picture};
 
 /// Free space around the card, in points.
 const MARGIN: f32 = 10.0;
@@ -92,7 +93,7 @@ impl SpectrumCard {
                         match found {
                             Some(found) => {
                                 reading = self.plot.show(ui, found, side, spectrum.is_current());
-                                words(ui, found, spectrum.is_of_a(), reading.as_ref());
+                                words(ui, viewer, found, reading.as_ref());
                                 legend(ui, found);
                             }
                             None => {
@@ -191,8 +192,8 @@ fn words_of(part: SpectrumPart, (free, is_all): (Region, bool)) -> &'static str 
     }
 }
 
-/// Two lines below the plot: the wave that is pointed at, or what was transformed, of A beside B if `of_a`.
-fn words(ui: &mut Ui, found: &SpectrumFound, of_a: bool, reading: Option<&SpectrumReading>) {
+/// Two lines below the plot: the wave that is pointed at, or what was transformed.
+fn words(ui: &mut Ui, viewer: &Viewer, found: &SpectrumFound, reading: Option<&SpectrumReading>) {
     let whole = || {
         let region = found.analysis.region();
         let size = format!("{} \u{d7} {}", region.width, region.height);
@@ -201,13 +202,16 @@ fn words(ui: &mut Ui, found: &SpectrumFound, of_a: bool, reading: Option<&Spectr
             None => format!("{size} pixels from {}, {}", region.x, region.y),
         };
         let second = match (found.analysis.constant(), found.analysis.of()) {
-            (Some(0.0), SpectrumOf::Difference) if of_a => "A is the truth here: no error",
+            (Some(0.0), SpectrumOf::Difference) if viewer.spectrum().is_of_a() => "A is the truth here: no error",
             (Some(0.0), SpectrumOf::Difference) => "The frame is the truth here: no error",
             (Some(_), SpectrumOf::Difference) => "All differs from the truth by the same: no waves",
             (Some(_), _) => "All is of one colour: no waves",
             (None, _) => "Point at a frequency to see its wave",
         };
-        [first, second.to_owned()]
+        // Texels have colours of their own.
+        let false_colors = picture::false_colors(viewer.settings()).filter(|_| found.level.is_none());
+        let second = false_colors.map_or(second.to_owned(), |words| format!("{} {second}", told_of_all(&words)));
+        [first, second]
     };
     for line in reading.map_or_else(whole, |reading| told(found, reading)) {
         ui.add(egui::Label::new(RichText::new(line).small().weak()).truncate());

@@ -55,6 +55,12 @@ pub fn changed_words(settings: &Settings, about: About, scene: Option<&Scene>) -
     told.map(|setting| setting.words(settings)).collect()
 }
 
+/// What false colours a picture has, such as `visualise overdraw`; `None` where they are those of its scene.
+pub fn false_colors(settings: &Settings) -> Option<String> {
+    let setting = find("visualise").filter(|setting| !setting.is_default(settings))?;
+    Some(setting.words(settings))
+}
+
 /// The same after those that are told always.
 pub fn told_words(settings: &Settings, about: About, scene: Option<&Scene>) -> Vec<String> {
     let always = told(Told::Always, about).filter(|setting| setting.idle(settings, scene).is_none());
@@ -292,6 +298,13 @@ mod tests {
         let plain = crate::scene::read(fill.as_bytes(), "plain.svg", options, &crate::viewer::gallery::Textures);
         let plain = plain.expect("a scene");
         assert_eq!(told_words(&area, About::Textures, Some(&plain)), [""; 0], "no texture");
+    }
+
+    #[test]
+    fn false_colors_are_told() {
+        assert_eq!(false_colors(&Settings::default()), None, "the scene's own");
+        let words = false_colors(&after("visualise", "overdraw"));
+        assert_eq!(words.as_deref(), Some("visualise overdraw"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use glam::{DVec2, dvec2};
 use super::hands::{click_on, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, Arrangement, ProfileCommand, Toggle};
+use crate::viewer::{AbCommand, Against, Arrangement, ProfileCommand, SpectrumCommand, Toggle};
 
 const CLOSE: &str = "Close the edge profile";
 
@@ -104,6 +104,34 @@ fn card_of_a_profile_leaves_its_line_free() {
         session.settle();
         assert!(says(&mut session, "Edge profile"), "side by side, too, in {window:?}");
     }
+}
+
+#[test]
+fn card_of_a_profile_leaves_an_end_free_where_it_covers_some_of_the_line() {
+    for ends in [[[280, 200], [360, 210]], [[200, 200], [300, 210]]] {
+        let mut session = session(one_edge(), [640, 480]);
+        session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+        session.command(profile(ProfileCommand::SetLine(ends)));
+        session.settle();
+        for [x, y] in ends {
+            let covered = session.interface.covers(pos2(x as f32 + 0.5, y as f32 + 0.5));
+            assert!(!covered, "the end {x}, {y} can be dragged");
+        }
+    }
+}
+
+#[test]
+fn profile_of_false_colours_says_so() {
+    let mut session = session(one_edge(), [1280, 800]);
+    session.command(profile(ProfileCommand::SetLine([[600, 300], [640, 300]])));
+    session.settle();
+    assert!(!says(&mut session, "visualise"), "the scene's colours");
+    session.command(Command::set("visualise", "overdraw").expect("a value"));
+    session.settle();
+    assert!(says(&mut session, "In all: visualise overdraw."), "false ones");
+    session.command(Command::Spectrum(SpectrumCommand::Show(Toggle::On)));
+    session.settle();
+    assert!(says(&mut session, "In all: visualise overdraw."), "of a spectrum, too");
 }
 
 #[test]

@@ -12,17 +12,18 @@
 
 use egui::style::ScrollAnimation;
 use egui::{
-    Align, Align2, Area, Button, ComboBox, Frame, Id, Layout, Order, Rect, RichText, ScrollArea, Ui, Vec2, vec2,
+    Align, Align2, Area, Button, Color32, ComboBox, Frame, Id, Layout, Order, Rect, RectAlign, RichText, ScrollArea,
+    TextStyle, Tooltip, Ui, Vec2, vec2,
 };
 
 use super::board_tiles::{BoardTiles, Grid, caption_lines, list};
-use super::controls::{command_button, tip};
+use super::controls::{command_button, tip, tip_beside};
 use super::corner::CardCorner;
 use super::focus::{self, FocusPanel};
-use super::look::CONTROL;
+use super::look::{self, BAR_ROOM, CONTROL};
 use crate::color::ResolveSpace;
 use crate::figure::TableFormat;
-use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, ShownTile, Toggle, Viewer, picture};
+use crate::viewer::{AbCommand, Axis, BoardCommand, BoardSort, Command, ShownTile, Toggle, Viewer, commands, picture};
 
 /// Free space around the card, in points.
 const MARGIN: f32 = 10.0;
@@ -32,6 +33,9 @@ const FRAME: f32 = 14.0;
 const LEAST_TILES: f32 = 60.0;
 /// Width of the controls in one or two rows, in points.
 const CONTROLS: f32 = 660.0;
+
+/// Width of a card below which what leaves the board is in a list, in points: else it would stand in a third row.
+const NARROW: f32 = 400.0;
 
 /// Height of the list of settings, in points.
 const VARY_HEIGHT: f32 = 320.0;
@@ -63,7 +67,8 @@ impl BoardCard {
         }
         let room = free.shrink(MARGIN).size() - Vec2::splat(FRAME);
         let tiles = board.tiles();
-        let for_tiles = vec2(room.x, room.y - self.above.max(60.0));
+        let bar = f32::from(BAR_ROOM);
+        let for_tiles = vec2(room.x - bar, room.y - self.above.max(60.0));
         let captions = |width: f32| caption_lines(ui, &tiles, width);
         let grid = Grid::of(
             (tiles.len() + 1, board.side()),
@@ -71,7 +76,7 @@ impl BoardCard {
             for_tiles,
             captions,
         );
-        let width = grid.map_or(0.0, Grid::width).max(CONTROLS).min(room.x);
+        let width = (grid.map_or(0.0, Grid::width) + bar).max(CONTROLS).min(room.x);
         let id = Id::unique("board");
         let area = Area::new(id)
             .order(Order::Middle)
@@ -96,6 +101,7 @@ impl BoardCard {
                     }
                     let above = if is_low { head } else { self.above };
                     let height = (room.y - above).max(LEAST_TILES);
+                    look::bars_beside(ui);
                     ScrollArea::vertical()
                         // Other entries begin with the truth and the best.
                         .id_salt(("board tiles", board.fillings()))
@@ -103,7 +109,6 @@ impl BoardCard {
                         // An area keeps the height that it had: without a least height, a board that was cleared stays so low.
                         .min_scrolled_height(height)
                         .show(ui, |ui| {
-                            super::look::bars_beside(ui);
                             if is_low {
                                 self.controls(ui, viewer, head, commands);
                             }
@@ -146,6 +151,7 @@ impl BoardCard {
 
 /// The title, what is compared with what, and what closes the card.
 fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let mut has_room = true;
     ui.horizontal(|ui| {
         ui.label(RichText::new("Board").strong()).on_hover_text(tip("board"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -155,16 +161,35 @@ fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if close.accessible_name("Close the board").clicked() {
                 commands.push(Command::Board(BoardCommand::Show(Toggle::Off)));
             }
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let label = egui::Label::new(RichText::new(words(viewer)).small().weak()).truncate();
-                ui.add(label).on_hover_text(format!("{}. {MEASURED}", words(viewer)));
-            });
+            has_room = ui.available_width() >= width_of_words(ui, viewer);
+            if has_room {
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| about(ui, viewer));
+            }
         });
     });
+    if !has_room {
+        about(ui, viewer);
+    }
     if let Some(problem) = viewer.board().problem() {
         ui.label(RichText::new(problem).small().color(ui.visuals().warn_fg_color));
     }
 }
+
+/// What is compared with what, in as many lines as it takes.
+fn about(ui: &mut Ui, viewer: &Viewer) {
+    let label = egui::Label::new(RichText::new(words(viewer)).small().weak()).wrap();
+    ui.add(label).on_hover_text(format!("{}. {MEASURED}", words(viewer)));
+}
+
+/// The width of that in one line, in points, with room for what is said while it is measured: the line stays where it is.
+fn width_of_words(ui: &Ui, viewer: &Viewer) -> f32 {
+    let text = format!("{}{MEASURING}", words(viewer).trim_end_matches(MEASURING));
+    let font = TextStyle::Small.resolve(ui.style());
+    ui.painter().layout_no_wrap(text, font, Color32::WHITE).size().x
+}
+
+/// Said while tiles are measured.
+const MEASURING: &str = "; measuring \u{2026}";
 
 /// How numbers are made.
 const MEASURED: &str = "RMSE in levels of 255 and FLIP are those of this region alone. The time is that of the whole frame, the median of \
@@ -177,21 +202,22 @@ fn words(viewer: &Viewer) -> String {
         return "no picture to compare".to_owned();
     };
     let why = board.truth_space().map_or(", as A", |_| "");
-    let more = if board.is_measuring() {
-        "; measuring \u{2026}"
-    } else {
-        ""
-    };
+    let more = if board.is_measuring() { MEASURING } else { "" };
     format!("{region}; truth: {truth}{why}{more}")
 }
 
 /// What all tiles share, and that the picture beside them has other settings; `None` where there is nothing to say.
 fn in_all(tiles: &[ShownTile<'_>], shared: &str) -> Option<String> {
-    let shared = (!shared.is_empty()).then(|| format!("In all: {shared}."));
+    let shared = (!shared.is_empty()).then(|| told_of_all(shared));
     let is_elsewhere = !tiles.is_empty() && !tiles.iter().any(|tile| tile.is_a);
     let elsewhere = is_elsewhere.then(|| "The settings of A are on no tile.".to_owned());
     let words: Vec<String> = shared.into_iter().chain(elsewhere).collect();
     (!words.is_empty()).then(|| words.join(" "))
+}
+
+/// That all pictures which are compared have these settings.
+pub(super) fn told_of_all(settings: &str) -> String {
+    format!("In all: {settings}.")
 }
 
 /// What changes the board.
@@ -217,25 +243,68 @@ fn controls(ui: &mut Ui, viewer: &Viewer, list_open: &mut bool, commands: &mut V
             let space = few(ui, ("Truth averaged", "truth-space"), board.truth_space(), &spaces);
             commands.extend(space.map(AbCommand::SetTruthSpace).map(Command::Ab));
         });
-        together(ui, 94.0, "copy", |ui| {
-            for (format, text, name) in [
-                (TableFormat::Markdown, "MD", "Markdown"),
-                (TableFormat::Csv, "CSV", "CSV"),
-            ] {
-                let button = ui.add(Button::new(text).min_size(CONTROL));
-                let name = format!("Copy the board as {name}");
-                if button.on_hover_text(tip("board-copy")).accessible_name(name).clicked() {
-                    commands.push(Command::Board(BoardCommand::Copy(format)));
-                }
-            }
-        });
-        if command_button(ui, "save-board", "Save").clicked() {
-            commands.push(Command::Board(BoardCommand::Save));
-        }
-        if command_button(ui, "board-clear", "Clear").clicked() {
-            commands.push(Command::Board(BoardCommand::Clear));
+        if ui.max_rect().width() < NARROW {
+            more(ui, commands);
+        } else {
+            leaving(ui, commands);
         }
     });
+}
+
+/// What leaves the board, in a row: copies and pictures of it, and all that is on it.
+fn leaving(ui: &mut Ui, commands: &mut Vec<Command>) {
+    together(ui, 94.0, "copy", |ui| {
+        for (format, text) in [(TableFormat::Markdown, "MD"), (TableFormat::Csv, "CSV")] {
+            let button = ui.add(Button::new(text).min_size(CONTROL));
+            let button = button.on_hover_text(tip("board-copy"));
+            if button.accessible_name(copy_name(format)).clicked() {
+                commands.push(Command::Board(BoardCommand::Copy(format)));
+            }
+        }
+    });
+    if command_button(ui, "save-board", "Save").clicked() {
+        commands.push(Command::Board(BoardCommand::Save));
+    }
+    if command_button(ui, "board-clear", "Clear").clicked() {
+        commands.push(Command::Board(BoardCommand::Clear));
+    }
+}
+
+/// The same as a list, where a row of its own would be taken from the tiles.
+fn more(ui: &mut Ui, commands: &mut Vec<Command>) {
+    let named = |id: &str, command: BoardCommand| {
+        let name = commands::find(id).map_or("", |spec| spec.name);
+        (name.to_owned(), tip(id), command)
+    };
+    let copy = |format: TableFormat| (copy_name(format), tip("board-copy"), BoardCommand::Copy(format));
+    let lines = [
+        copy(TableFormat::Markdown),
+        copy(TableFormat::Csv),
+        named("save-board", BoardCommand::Save),
+        named("board-clear", BoardCommand::Clear),
+    ];
+    let list = ComboBox::from_id_salt("more of the board")
+        .width(64.0)
+        .selected_text("More \u{2026}")
+        .show_ui(ui, |ui| {
+            for (name, tip, command) in lines {
+                let line = ui.selectable_label(false, name);
+                if line.clicked() {
+                    commands.push(Command::Board(command));
+                }
+                tip_beside(Tooltip::for_enabled(&line), RectAlign::LEFT_START, tip);
+            }
+        });
+    let list = list.response.on_hover_text("Copies, saves or clears the board");
+    focus::note_opener(&list.accessible_name("More of the board"));
+}
+
+fn copy_name(format: TableFormat) -> String {
+    let name = match format {
+        TableFormat::Markdown => "Markdown",
+        TableFormat::Csv => "CSV",
+    };
+    format!("Copy the board as {name}")
 }
 
 /// A label and its buttons, which take about `width` points and stay in one row.
@@ -287,7 +356,7 @@ fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             // The list's own bar is hidden until the pointer is there, and nothing says that there is more.
-            super::look::bars_beside(ui);
+            look::bars_beside(ui);
             ScrollArea::vertical().max_height(VARY_HEIGHT).show(ui, |ui| {
                 for (index, setting) in picture::all().enumerate() {
                     let label = setting.option.replace('-', " ");

@@ -2,11 +2,11 @@
 
 use egui::text::LayoutJob;
 use egui::{
-    Align, Button, Color32, FontId, Label, Layout, Rect, RichText, Sense, Stroke, StrokeKind, TextFormat,
-    TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, Color32, FontId, Label, Layout, Rect, RectAlign, RichText, Sense, Stroke, StrokeKind,
+    TextFormat, TextureHandle, TextureOptions, Tooltip, Ui, Vec2, pos2, vec2,
 };
 
-use super::controls::tip;
+use super::controls::{tip, tip_beside};
 use super::scenes::image_of;
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
@@ -33,6 +33,18 @@ const REMOVE: f32 = 18.0;
 const LETTERS: f32 = 11.0;
 /// Most lines of a caption: enough for three settings in the narrowest tile, and what has most values comes first.
 const LINES: usize = 6;
+
+/// Width of the tool tip of a tile at most, in points.
+const TIP: f32 = 420.0;
+/// Where the tool tip of a tile is: over its upper edge, from its left end on, or up to its right end.
+const OVER: RectAlign = RectAlign {
+    parent: Align2::LEFT_TOP,
+    child: Align2::LEFT_TOP,
+};
+const OVER_RIGHT: RectAlign = RectAlign {
+    parent: Align2::RIGHT_TOP,
+    child: Align2::RIGHT_TOP,
+};
 
 /// How tiles lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,9 +221,16 @@ fn entry(
     if let Some(stroke) = stroke {
         ui.painter().rect_stroke(place, 0.0, stroke, StrokeKind::Outside);
     }
-    let about = if tile.is_a { ". A has these settings now" } else { "" };
-    let tip = format!("{}{about}. {}", tile.caption, tip("board-a"));
-    if response.on_hover_text(tip).accessible_name(name).clicked() {
+    let does = if tile.is_a {
+        "A has the settings of this tile"
+    } else {
+        "Gives A the settings of this tile"
+    };
+    let mut tip = Tooltip::for_enabled(&response).width(TIP);
+    // Along the tile's own upper edge: below it and above it are the numbers that one compares.
+    tip.popup = tip.popup.gap(0.0).align_alternatives(&[OVER_RIGHT]);
+    tip_beside(tip, OVER, format!("{does}: {}.", tile.caption));
+    if response.accessible_name(name).clicked() {
         commands.push(Command::Board(BoardCommand::MakeA(index)));
     }
     ui.add_space(3.0);

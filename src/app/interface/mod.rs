@@ -118,6 +118,8 @@ pub(super) struct Interface {
     in_lesson: bool,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
+    /// Where cards were that measure the picture, in points.
+    cards: Vec<Rect>,
     /// Where words stood over the picture in the last pass, in points.
     labels: Vec<Rect>,
     /// Where the parts of the line of a wipe were, in points.
@@ -173,6 +175,7 @@ impl Interface {
             explanation_side: None,
             in_lesson: false,
             covered: Vec::new(),
+            cards: Vec::new(),
             labels: Vec::new(),
             line: Vec::new(),
             wanted_step: None,
@@ -203,6 +206,11 @@ impl Interface {
             .layer_id_at(at)
             .is_some_and(|layer| layer.order != Order::Background);
         above || self.covered.iter().any(|rect| rect.contains(at))
+    }
+
+    /// Whether a card lies at `at`, in points: nothing of these comes or goes with the pointer.
+    pub(super) fn card_covers(&self, at: Pos2) -> bool {
+        self.cards.iter().any(|card| card.contains(at))
     }
 
     /// Where words stand over the picture, in points.
@@ -364,6 +372,7 @@ impl Interface {
     /// What floats over the picture, but for words. Returns where cards are.
     fn float(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, asked: &mut Asked) -> Vec<Rect> {
         let mut cards = Vec::new();
+        self.cards.clear();
         let hidden = viewer.chrome().everything_hidden();
         if !hidden {
             floating::progress(ui, viewer, free);
@@ -376,11 +385,14 @@ impl Interface {
             cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);
             let profile = self.profile.show(ui, viewer, free, &mut asked.commands);
+            self.cards.extend(profile.card);
             cards.extend(profile.taken);
             profile_line::show(ui, viewer, free, profile.pixel);
             let board = self.board.show(ui, viewer, (free, self.timed), &mut asked.commands);
+            self.cards.extend(board);
             cards.extend(board);
             let spectrum = self.spectrum.show(ui, viewer, free, &mut asked.commands);
+            self.cards.extend(spectrum.taken);
             cards.extend(spectrum.taken);
             self.wave
                 .show(ui, viewer, free, spectrum.reading.map(|reading| reading.wave));

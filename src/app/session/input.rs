@@ -93,6 +93,17 @@ impl Session {
         found
     }
 
+    /// Takes the pointer off the picture where a card came to lie between them; true if that is so.
+    pub(super) fn lose_pointer(&mut self) -> bool {
+        let has_it = self.viewer.pixels().pointer().is_some() && !self.holds_picture;
+        let covers = |at: DVec2| self.interface.card_covers(self.to_points(at));
+        let is_lost = has_it && self.pointer.is_some_and(covers);
+        if is_lost {
+            self.run(Command::Pointer(PointerCommand::Left));
+        }
+        is_lost
+    }
+
     /// A button of the mouse at the pointer's place. True if the picture took it.
     pub(in crate::app) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
         if down && self.is_on_picture() {

@@ -382,7 +382,7 @@ impl Session {
                 break;
             }
         }
-        if self.find_pointer() {
+        if self.find_pointer() || self.lose_pointer() {
             turn.next = Duration::ZERO;
         }
         self.save_pictures();

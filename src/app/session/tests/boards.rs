@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{click_on, key, place_of, says, session};
+use super::hands::{click_on, key, nodes, place_of, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Axis, BoardCommand, BoardSort, InspectorCommand, LessonCommand, SceneCommand, Toggle};
@@ -108,13 +108,49 @@ fn board_lies_in_every_window() {
             }
             vary(&mut session, "seed", "0,1,2,3,4,5,6,7,8");
             assert_eq!(session.viewer.board().tiles().len(), 9, "a full board");
-            for name in [CLOSE, "Sort by: time", "Clear the board", "Make tile 1 A"] {
+            let leaves = ["Clear the board", "More of the board"];
+            let nodes = nodes(&mut session);
+            let has = |name: &&str| nodes.iter().any(|node| node.label() == Some(*name));
+            let leaves = leaves.into_iter().find(has).expect("a way to clear it");
+            for name in [CLOSE, "Sort by: time", leaves, "Make tile 1 A"] {
                 let at = place_of(&mut session, name);
                 let inside = at.cmpge(dvec2(0.0, 0.0)).all() && at.x < window[0].into() && at.y < window[1].into();
                 assert!(inside, "{name} at {at} of {window:?}, pinned: {pinned}");
             }
         }
     }
+}
+
+#[test]
+fn narrow_board_has_what_leaves_it_in_a_list() {
+    let mut session = session(rings(), [640, 480]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    vary(&mut session, "sample-rate", "1,4");
+    let [sort, more] = ["Sort by: RMSE", "More of the board"].map(|name| place_of(&mut session, name).y);
+    assert!(more - sort < 40.0, "two rows: {sort} and {more}");
+    assert!(says(&mut session, "in stored values, as A"), "the whole title");
+    click_on(&mut session, "More of the board");
+    click_on(&mut session, "Clear the board");
+    assert!(session.viewer.board().tiles().is_empty(), "cleared");
+}
+
+#[test]
+fn pixel_under_a_board_is_not_told() {
+    let mut session = session(rings(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+    session.pointer(Some(dvec2(900.0, 700.0)));
+    session.settle();
+    assert!(
+        session.viewer.pixels().status().is_some(),
+        "the pixel under the pointer"
+    );
+    vary(&mut session, "sample-rate", "1,4");
+    assert!(session.viewer.pixels().pointer().is_none(), "a tile lies there");
+    assert!(session.viewer.pixels().status().is_none(), "no pixel is told");
+    click_on(&mut session, CLOSE);
+    session.pointer(Some(dvec2(900.0, 700.0)));
+    session.settle();
+    assert!(session.viewer.pixels().status().is_some(), "it is to be seen again");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! The arguments as written: the commands, and what they are when read.
 
 use std::ffi::{OsStr, OsString};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use super::completions::completions;
@@ -163,7 +163,10 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
 }
 
 /// `rasterscope PATH` means `rasterscope view PATH`.
-pub(super) fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
+///
+/// # Errors
+/// When the first word is the mistyped name of a command rather than a path.
+pub(super) fn with_default_command(mut arguments: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
     let named = |word: &OsStr| {
         let general = ["help", "-h", "--help", "-V", "--version"]
             .iter()
@@ -174,9 +177,31 @@ pub(super) fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString
                 .any(|verb| word == verb.get_name())
     };
     if !arguments.get(1).is_some_and(|word| named(word)) {
+        if let Some(mistake) = arguments.get(1).and_then(|word| mistyped(word)) {
+            return Err(mistake);
+        }
         arguments.insert(1.min(arguments.len()), "view".into());
     }
-    arguments
+    Ok(arguments)
+}
+
+/// What is wrong with a word that names no file and is nearly the name of a command; `None` for any other.
+fn mistyped(word: &OsStr) -> Option<Failure> {
+    let text = word.to_str()?;
+    // Paths of scenes have an ending or a folder.
+    let is_plain = text.chars().all(|letter| letter.is_ascii_alphabetic());
+    if !is_plain || Path::new(word).exists() {
+        return None;
+    }
+    let error = Arguments::command().try_get_matches_from(["rasterscope", text]).err()?;
+    let Some(ContextValue::Strings(names)) = error.get(ContextKind::SuggestedSubcommand) else {
+        return None;
+    };
+    // The nearest comes last.
+    let nearest = names.last()?;
+    Some(Failure::input(format!(
+        "there is no command {text}, nor a file of this name; did you mean `rasterscope {nearest}`?"
+    )))
 }
 
 #[cfg(test)]
@@ -365,6 +390,7 @@ mod tests {
         let words = |line: &str| {
             let arguments = with_default_command(line.split_whitespace().map(OsString::from).collect());
             arguments
+                .expect("no mistyped command")
                 .iter()
                 .map(|word| word.to_string_lossy().into_owned())
                 .collect::<Vec<_>>()
@@ -383,5 +409,8 @@ mod tests {
             "a command"
         );
         assert_eq!(words("rasterscope --help"), "rasterscope --help", "the help");
+        for line in ["rasterscope rendr.svg", "rasterscope ./rendr", "rasterscope teapot"] {
+            assert_eq!(words(line), line.replace("scope ", "scope view "), "a path");
+        }
     }
 }

@@ -239,13 +239,20 @@ fn varied(text: &str, own: BoardEntry) -> Result<Vec<BoardEntry>, String> {
         let count = entries.len();
         if count > MAX_ENTRIES {
             entries.truncate(MAX_ENTRIES);
+            let besides = match setting.names_besides().as_slice() {
+                [] => String::new(),
+                names => format!(
+                    ", also those that bring a number of samples of their own ({})",
+                    names.join(", ")
+                ),
+            };
             print_error(&format!(
-                "--vary {name}: the first {MAX_ENTRIES} of {count} values; name others as --vary {name}=VALUE,VALUE"
+                "--vary {name}: the first {MAX_ENTRIES} of {count} values; name others as --vary {name}=VALUE,VALUE{besides}"
             ));
         }
         return Ok(entries);
     };
-    own.vary(&Axis::of(name.trim(), values)?)
+    own.vary_as_asked(&Axis::of(name.trim(), values)?)
 }
 
 /// The scene in every dialect that it was asked for.

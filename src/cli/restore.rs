@@ -182,7 +182,7 @@ fn with_files_read(words: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
 /// Reads the arguments, the program's name first. Where a picture that tells how it was made stands for the scene, its
 /// options come before those that were written, so that these count.
 pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Arguments, Option<Restored>), Failure> {
-    let words = with_files_read(arguments::with_default_command(arguments.into_iter().collect()))?;
+    let words = with_files_read(arguments::with_default_command(arguments.into_iter().collect())?)?;
     let mut arguments = arguments::parse_words(words.clone(), false)?;
     let is_view = matches!(arguments.verb, Verb::View(_));
     let Some(restored) = arguments.verb.scene().map_or(Ok(None), |scene| restored(scene))? else {

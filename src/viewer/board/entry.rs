@@ -77,6 +77,19 @@ impl BoardEntry {
         Ok(entries)
     }
 
+    /// The same, for values that somebody asked for by their names.
+    ///
+    /// # Errors
+    /// As [`BoardEntry::vary`], and for a rate that the pattern does not take.
+    pub fn vary_as_asked(self, axis: &Axis) -> Result<Vec<Self>, String> {
+        for value in &axis.values {
+            if let (_, Some(remark)) = self.changed(&[SettingChange::of(&axis.name, value)?]) {
+                return Err(format!("{} {}: {remark}", axis.name, axis.short(value)));
+            }
+        }
+        self.vary(axis)
+    }
+
     /// Names and values of the settings in which it differs from `other`, as options have them.
     pub fn changes(self, other: Self) -> Vec<(&'static str, String)> {
         let (own, other) = (self.settings(), other.settings());
@@ -264,6 +277,10 @@ mod tests {
         let rates = own.vary(&axis).expect("values");
         assert_eq!(rates.len(), 3, "five samples of a grid are four");
         assert_eq!(rates[2], own, "the last is A's");
+        let problem = own.vary_as_asked(&axis).expect_err("no five samples of a grid");
+        assert_eq!(Err(problem), own.with("sample-rate 5"), "as one by one");
+        let axis = Axis::of("sample-rate", "1,4,16").expect("an axis");
+        assert_eq!(own.vary_as_asked(&axis), own.vary(&axis), "all as asked");
     }
 
     #[test]

@@ -276,6 +276,14 @@ impl PictureSetting {
         }
     }
 
+    /// Names of other values, which bring a sample rate of their own.
+    pub fn names_besides(&self) -> Vec<&'static str> {
+        match self.values {
+            Values::NamedOrWritten { more, .. } => more(),
+            Values::Named(_) | Values::Open { .. } => Vec::new(),
+        }
+    }
+
     /// The values that have buttons or lines of a list.
     pub fn offered(&self, settings: &Settings) -> Vec<String> {
         match self.values {

@@ -30,6 +30,19 @@ fn folder_with(files: &[(&str, &str)]) -> tempfile::TempDir {
 }
 
 #[test]
+fn cli_tells_a_mistyped_command() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    for (arguments, name) in [
+        (&["rendr", "a.svg"][..], "did you mean `rasterscope render`?"),
+        (&["rendr", "a.svg", "-o", "b.png"], "there is no command rendr"),
+        (&["spektrum", "a.svg"], "did you mean `rasterscope spectrum`?"),
+    ] {
+        refused(folder.path(), arguments, &[name]);
+    }
+    assert!(!folder.path().join("b.png").exists(), "nothing is drawn");
+}
+
+#[test]
 fn cli_visualisations_come_with_a_legend_where_there_is_room() {
     let folder = folder_with(&[("a.svg", SCENE)]);
     let picture = |name: &str, more: &[&str]| {

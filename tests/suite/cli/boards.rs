@@ -238,6 +238,8 @@ fn board_refuses_what_makes_no_sense() {
         (&["--vary=nothing"], "nothing"),
         (&["--vary=pattern=grid,grid"], "twice"),
         (&["--vary=sample-rate="], "empty"),
+        (&["--vary=sample-rate=1,5"], "--vary: sample-rate 5: "),
+        (&["--vary=sample-rate=7,8,9"], "square"),
         (&["--with=A", "--region=80,0,64,64"], "outside"),
         (&["--with=A", "--region=4294967295,0,4294967295,1"], "outside"),
         (&["--with=A", "-o", "b.jpg"], ".png"),

@@ -23,9 +23,18 @@ pub(in crate::viewer) struct Board {
     pub(in crate::viewer) sort: BoardSort,
     /// Pixels along each side of the region.
     pub(in crate::viewer) side: u32,
+    /// What it took the place of when it was opened, and gives back to Esc.
+    pub(in crate::viewer) displaced: Option<Displaced>,
     /// How often all entries were replaced.
     pub(in crate::viewer) fillings: u64,
     pub(in crate::viewer) measuring: BoardMeasuring,
+}
+
+/// A card that lies where the board does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::viewer) enum Displaced {
+    Profile,
+    Spectrum,
 }
 
 impl Board {
@@ -35,6 +44,7 @@ impl Board {
             entries: Vec::new(),
             sort: BoardSort::default(),
             side: SIDES[1],
+            displaced: None,
             fillings: 0,
             measuring,
         }

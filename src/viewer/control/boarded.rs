@@ -5,13 +5,13 @@ use crate::figure::{Ground, TableFormat};
 use crate::raster::{Framebuffer, Region};
 use crate::render::RenderSettings;
 use crate::viewer::BoardCommand;
-use crate::viewer::board::Board;
 use crate::viewer::board::SIDES;
 use crate::viewer::board::entry::{BoardEntry, MAX_ENTRIES, captions, shared_words};
 use crate::viewer::board::measure::{BoardPlace, BoardTile};
 use crate::viewer::board::measuring::BoardQuestion;
 use crate::viewer::board::numbers::BoardSort;
 use crate::viewer::board::report::{BoardCommandLine, BoardReport};
+use crate::viewer::board::{Board, Displaced};
 use crate::viewer::chrome::messages::no_such;
 use crate::viewer::command::Effect;
 use crate::viewer::control::copy::Copied;
@@ -340,7 +340,14 @@ impl Viewer {
     }
 
     fn show_board(&mut self) {
-        self.board.open = true;
+        // No card is open beside an open board.
+        if !std::mem::replace(&mut self.board.open, true) {
+            let cards = [
+                (self.profiling.open, Displaced::Profile),
+                (self.spectrum.open, Displaced::Spectrum),
+            ];
+            self.board.displaced = cards.into_iter().find_map(|(is_open, card)| is_open.then_some(card));
+        }
         self.chrome.hidden = false;
         // Cards would lie on each other.
         self.profiling.show(false);

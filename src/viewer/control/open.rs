@@ -11,7 +11,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::is_picture;
 use crate::viewer::ab::requests::ComparisonContext;
-use crate::viewer::board::Board;
+use crate::viewer::board::{Board, Displaced};
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::no_such;
 use crate::viewer::control::lesson::Lessons;
@@ -193,7 +193,7 @@ impl Opening<'_> {
         if self.chrome.close_latest() || self.close_words() {
             return true;
         }
-        if self.scene_list.give_up_reading() || self.profiling.escape() || self.board.escape() || self.spectrum.escape()
+        if self.scene_list.give_up_reading() || self.profiling.escape() || self.close_board() || self.spectrum.escape()
         {
             return true;
         }
@@ -206,6 +206,19 @@ impl Opening<'_> {
             || std::mem::take(&mut self.inspector.magnifier.open)
             || self.ab.escape(&mut context)
             || self.lessons().close()
+    }
+
+    /// Closes the board, which gives back the card in whose place it is; false where it is not open.
+    fn close_board(&mut self) -> bool {
+        if !self.board.escape() {
+            return false;
+        }
+        match self.board.displaced.take() {
+            Some(Displaced::Profile) => self.profiling.show(true),
+            Some(Displaced::Spectrum) => self.spectrum.open = true,
+            None => {}
+        }
+        true
     }
 
     /// Closes the scene's words; false where none are to be seen.

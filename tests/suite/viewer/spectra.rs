@@ -4,7 +4,7 @@ use glam::dvec2;
 use rasterscope::compare::{SpectrumOf, SpectrumReading};
 use rasterscope::raster::Region;
 use rasterscope::viewer::script::{Script, ViewerStage, play};
-use rasterscope::viewer::{AbCommand, Against, Arrangement};
+use rasterscope::viewer::{AbCommand, Against, Arrangement, BoardCommand, BoardSort};
 use rasterscope::viewer::{Command, SpectrumPart, Toggle, ViewNumbers};
 use rasterscope::viewer::{InspectorCommand, ProfileCommand, SpectrumCommand, ViewCommand, WindowCommand};
 
@@ -147,6 +147,38 @@ fn spectrum_is_one_card_that_esc_closes() {
     session.run(Command::Window(WindowCommand::HideEverything(Toggle::On)));
     session.run(spectrum(SpectrumCommand::Show(Toggle::On)));
     assert!(session.viewer.spectrum().is_open(), "it brings back what is hidden");
+}
+
+#[test]
+fn board_gives_back_the_card_that_it_displaced() {
+    let mut session = session();
+    let open = |session: &Session| {
+        let viewer = &session.viewer;
+        [
+            viewer.profile().is_open(),
+            viewer.board().is_open(),
+            viewer.spectrum().is_open(),
+        ]
+    };
+    for (card, after) in [
+        (spectrum(SpectrumCommand::Show(Toggle::On)), [false, false, true]),
+        (
+            Command::Profile(ProfileCommand::SetLine([[10, 10], [60, 10]])),
+            [true, false, false],
+        ),
+    ] {
+        session.run(card);
+        session.run(Command::Board(BoardCommand::Show(Toggle::On)));
+        session.run(Command::Board(BoardCommand::Sort(BoardSort::Flip)));
+        assert_eq!(open(&session), [false, true, false], "the board in its place");
+        session.run(Command::Window(WindowCommand::Escape));
+        assert_eq!(open(&session), after, "given back");
+        session.run(Command::Window(WindowCommand::Escape));
+        assert_eq!(open(&session), [false; 3], "and closed");
+    }
+    session.run(Command::Board(BoardCommand::Show(Toggle::On)));
+    session.run(Command::Window(WindowCommand::Escape));
+    assert_eq!(open(&session), [false; 3], "there was none");
 }
 
 #[test]

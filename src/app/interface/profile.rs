@@ -163,15 +163,21 @@ impl ProfileCard {
         // It may be higher than was thought.
         let size = size.max(self.corner.drawn_size());
         self.corner.choose(size, room, |place| {
-            let card = place.shrink(APART);
-            let hidden = |rect: Rect| line.iter().filter(|at| rect.contains(**at)).count();
-            let panes = line.chunks(usize::from(PARTS) + 1);
-            let ends = panes.flat_map(|line| line.first().into_iter().chain(line.last()));
-            let ends = ends.filter(|end| card.expand(END).contains(**end)).count();
             let others = things.iter().filter(|other| other.intersects(place)).count();
-            (ends, hidden(card), hidden(place), others)
+            (hidden(&line, place), others)
         })
     }
+}
+
+/// How much of a line's pieces, as [`along`] has them, a card hides that needs this place with what is to be free around it: how
+/// many ends, how many points itself, how many with what is around it.
+fn hidden(line: &[Pos2], place: Rect) -> [usize; 3] {
+    let card = place.shrink(APART);
+    let inside = |rect: Rect| line.iter().filter(|at| rect.contains(**at)).count();
+    let panes = line.chunks(usize::from(PARTS) + 1);
+    let ends = panes.flat_map(|line| line.first().into_iter().chain(line.last()));
+    let ends = ends.filter(|end| card.expand(END).contains(**end)).count();
+    [ends, inside(card), inside(place)]
 }
 
 /// What false colours are measured; `None` where they are those of the scene.
@@ -311,4 +317,27 @@ fn sign(ui: &mut Ui, side: ProfileSide) {
     ui.painter().hline(rect.x_range(), rect.center().y, stroke);
     ui.add_space(6.0);
     ui.label(profile_plot::name(side));
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::pos2;
+
+    use super::*;
+
+    #[test]
+    fn cards_rather_hide_some_of_a_line_than_its_ends() {
+        let (from, to) = (pos2(100.0, 50.0), pos2(300.0, 50.0));
+        let line: Vec<Pos2> = (0..=PARTS)
+            .map(|part| from.lerp(to, f32::from(part) / f32::from(PARTS)))
+            .collect();
+        let over = |left: f32, right: f32| {
+            let card = Rect::from_min_max(pos2(left, 0.0), pos2(right, 200.0));
+            hidden(&line, card.expand(APART))
+        };
+        assert_eq!(over(320.0, 400.0), [0; 3], "beside it");
+        assert!(over(120.0, 280.0) < over(290.0, 400.0), "most of it, and no end");
+        assert!(over(303.0, 400.0) > over(307.0, 400.0), "the ring of an end");
+        assert!(over(270.0, 290.0) < over(260.0, 290.0), "less of it");
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use egui::accesskit::Node;
 use glam::dvec2;
 
 use super::hands::{click_on, key, nodes, place_of, says, session};
@@ -132,6 +133,55 @@ fn narrow_board_has_what_leaves_it_in_a_list() {
     click_on(&mut session, "More of the board");
     click_on(&mut session, "Clear the board");
     assert!(session.viewer.board().tiles().is_empty(), "cleared");
+}
+
+#[test]
+fn board_with_more_rows_has_a_bar_before_the_pointer_is_there() {
+    let mut session = session(rings(), [640, 480]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    vary(&mut session, "seed", "0,1,2,3,4,5,6,7,8");
+    let nodes = nodes(&mut session);
+    let close = nodes.iter().find(|node| node.label() == Some(CLOSE));
+    let right = close.and_then(Node::bounds).expect("the card's right end").x1;
+    let y = place_of(&mut session, "Make tile 1 A").y;
+    let picture = session.picture();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "inside of the window"
+    )]
+    let [right, y] = [right, y].map(|at| at as u32);
+    let at = |x: u32| picture.rgba(x, y).expect("inside");
+    let ground = at(right + 3);
+    let bar = (right - 8..right).filter(|x| at(*x) != ground).count();
+    assert!(bar >= 3, "{bar} columns of a bar left of {right}");
+}
+
+#[test]
+fn tip_of_a_tile_leaves_its_numbers_free() {
+    let mut session = session(rings(), [1280, 800]);
+    vary(&mut session, "sample-rate", "1,4,16");
+    let tile = place_of(&mut session, "Make tile 1 A");
+    session.pointer(Some(tile));
+    session.wait(Duration::from_secs(3));
+    session.settle();
+    let nodes = nodes(&mut session);
+    let places = |text: &str| {
+        let holds = |node: &&Node| node.value().is_some_and(|value| value.contains(text));
+        let found: Vec<_> = nodes.iter().filter(holds).filter_map(Node::bounds).collect();
+        found
+    };
+    let tip = places("Gives A the settings of this tile: sample rate 16.");
+    let tip = tip.first().expect("a tip");
+    for words in ["RMSE", "FLIP", "16"] {
+        let below = places(words).into_iter().filter(|place| place.y0 > tile.y);
+        let tops: Vec<f64> = below.map(|place| place.y0).collect();
+        assert!(!tops.is_empty(), "{words} below the tile");
+        assert!(
+            tops.iter().all(|top| *top >= tip.y1),
+            "{words} at {tops:?} below {tip:?}"
+        );
+    }
 }
 
 #[test]

@@ -107,20 +107,6 @@ fn card_of_a_profile_leaves_its_line_free() {
 }
 
 #[test]
-fn card_of_a_profile_leaves_an_end_free_where_it_covers_some_of_the_line() {
-    for ends in [[[280, 200], [360, 210]], [[200, 200], [300, 210]]] {
-        let mut session = session(one_edge(), [640, 480]);
-        session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
-        session.command(profile(ProfileCommand::SetLine(ends)));
-        session.settle();
-        for [x, y] in ends {
-            let covered = session.interface.covers(pos2(x as f32 + 0.5, y as f32 + 0.5));
-            assert!(!covered, "the end {x}, {y} can be dragged");
-        }
-    }
-}
-
-#[test]
 fn profile_of_false_colours_says_so() {
     let mut session = session(one_edge(), [1280, 800]);
     session.command(profile(ProfileCommand::SetLine([[600, 300], [640, 300]])));

@@ -105,6 +105,8 @@ impl BoardCard {
                     ScrollArea::vertical()
                         // Other entries begin with the truth and the best.
                         .id_salt(("board tiles", board.fillings()))
+                        // As wide as the card: the bar lies on its right.
+                        .auto_shrink([false, true])
                         .max_height(height)
                         // An area keeps the height that it had: without a least height, a board that was cleared stays so low.
                         .min_scrolled_height(height)

@@ -113,7 +113,7 @@ fn sheet_is_drawn_again_and_brings_its_first_panel_back() {
 #[test]
 fn sheet_of_rules_shows_one_reading_of_the_document() {
     let folder = tempfile::tempdir().unwrap();
-    let path = r##"<svg width="40" height="30"><path d="M2 3 L37 9 L11 28Z" fill="#123456"/></svg>"##;
+    let path = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30"><path d="M2 3 L37 9 L11 28Z" fill="#123456"/></svg>"##;
     fs::write(folder.path().join("a.svg"), path).unwrap();
     let arguments = [
         "sheet",

@@ -223,7 +223,10 @@ fn spectrum_without_waves_says_why() {
         ("plain.svg", &[], "all is of one colour"),
         ("plain.svg", &["--of=scene"], "all is of one colour"),
     ] {
-        let said = done(folder.path(), &[&["spectrum", scene], VIEW, options].concat());
+        let said = done(
+            folder.path(),
+            &[&["spectrum", scene, "--dialect=svg"], VIEW, options].concat(),
+        );
         assert!(said.contains(why), "{options:?} of {scene}: {said}");
     }
 }

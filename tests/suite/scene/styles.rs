@@ -262,11 +262,11 @@ fn crowded(css: &str, body: &str) -> Scene {
 #[test]
 fn many_rules_and_shapes_look_as_few_do() {
     let css = "rect { fill: blue; stroke: none } .a { fill: red; marker: none } #i { fill: lime } g > .b { fill: yellow!important } \
-               .c { fill: reddish; stroke: green icc-color(x, 1) } .d { font-family: \"A & B\"; stroke-width: 1e39 } \
+               .c { fill: reddish; stroke: green icc-color(x, 1) } .d { font-family: \"A &amp; B\"; stroke-width: 1e39 } \
                g rect + rect { stroke: #123456; stroke-width: 3 } [class='a b'] { opacity: .5 } .e { x: 5px; transform: rotate(45deg) }";
     let size = "width='9' height='9'";
     let body = format!(
-        "<rect {size}/><rect class='a' {size}/><rect class='a' id='i' {size}/><rect class='c' {size}/>\
+        "<rect {size}/><rect class='a' {size}/><rect class='a' id='i' {size}/><path class='c' d='M0 0h9v9z'/>\
          <rect class='a' style='fill: black' {size}/><rect class='a' style=' ' {size}/><rect class='a' style='fill: reddish' {size}/>\
          <g class='d'><rect class='a b' style='fill: red' {size}/><rect class='e' stroke='red' {size}/></g>"
     );

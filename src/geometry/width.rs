@@ -1,6 +1,6 @@
 //! How thin a shape is at a place: what decides whether it can pass between samples.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec2;
 
@@ -84,7 +84,8 @@ fn parts(triangles: &[[DVec2; 3]]) -> Vec<Vec<[DVec2; 3]>> {
         let [a, b] = [first, at].map(|at| root(&mut parents, at));
         parents[b] = a;
     }
-    let mut parts: HashMap<usize, Vec<[DVec2; 3]>> = HashMap::new();
+    // In an order that is the same whenever somebody asks.
+    let mut parts: BTreeMap<usize, Vec<[DVec2; 3]>> = BTreeMap::new();
     for (at, triangle) in triangles.iter().enumerate() {
         parts.entry(root(&mut parents, at)).or_default().push(*triangle);
     }
@@ -125,7 +126,8 @@ impl Inside {
         /// Corners on the window's border are rounded.
         const ON_BORDER: f64 = 1e-6;
         let [low, high] = [window[0] - BEYOND, window[1] + BEYOND];
-        let mut edges = HashMap::new();
+        // Of places that are as far from the border the first ones count: in an order that is the same whenever somebody asks.
+        let mut edges = BTreeMap::new();
         for [a, b, c] in part {
             for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
                 let mut ends = [key(from), key(to)];
@@ -308,6 +310,24 @@ mod tests {
         })
         .budget_ms(300);
         assert!(tried > 20, "{tried} were inside");
+    }
+
+    /// Places that are as far from the border, and so whichever comes first is climbed from, must not be taken by chance.
+    #[test]
+    fn a_comb_has_one_width_however_often_it_is_asked() {
+        let mut comb = vec![DVec2::new(0.0, 2.0)];
+        for i in 0..12 {
+            let x = f64::from(i) * 0.25;
+            comb.extend([(x, 0.1), (x + 0.11, 0.1), (x + 0.11, 1.7), (x + 0.25, 1.7)].map(|(x, y)| DVec2::new(x, y)));
+        }
+        comb.push(DVec2::new(3.0, 2.0));
+        let window = [DVec2::new(0.5, 0.5), DVec2::new(2.5, 2.5)];
+        let width = || width_of_contours(vec![comb.clone()], window, 0.5);
+        let first = width();
+        assert!(first.is_some(), "in the window");
+        for again in 0..20 {
+            assert_eq!(width(), first, "time {again}");
+        }
     }
 
     #[test]

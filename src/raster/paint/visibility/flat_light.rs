@@ -26,6 +26,8 @@ use crate::simd;
 
 /// Pixels that are resolved at once.
 const LANES: usize = 16;
+/// Numbers of a native vector with which that is worth it.
+const LEAST_LANES: usize = 8;
 
 impl VisibilityPainter<'_> {
     /// Resolves a tile of flat colours into the means of their light.
@@ -68,8 +70,8 @@ impl VisibilityPainter<'_> {
             }
             return;
         };
-        if all_opaque {
-            return dispatch!(simd::level(), simd => near.resolve(simd, tile, table, block));
+        if all_opaque && dispatch!(simd::level(), simd => near.resolve(simd, tile, table, block)) {
+            return;
         }
         for y in tile.rect.y.start..tile.rect.y.end {
             let (shown, line) = (tile.shown(y), block.line(y));
@@ -101,9 +103,18 @@ struct Batch {
 }
 
 impl NearFlat<'_> {
-    /// All pixels of a tile.
+    /// All pixels of a tile; whether this machine does it: in narrow vectors it takes more instructions than to know the latest pixels.
     #[inline(always)]
-    fn resolve<S: Simd>(&self, simd: S, tile: &VisibilityBuffer, table: &FlatResolve, block: &mut PixelBlock<'_>) {
+    fn resolve<S: Simd>(
+        &self,
+        simd: S,
+        tile: &VisibilityBuffer,
+        table: &FlatResolve,
+        block: &mut PixelBlock<'_>,
+    ) -> bool {
+        if S::u32s::LEN < LEAST_LANES {
+            return false;
+        }
         let mut batch = Batch {
             places: [[0; 2]; LANES],
             sums: [[0.0; 4]; LANES],
@@ -138,6 +149,7 @@ impl NearFlat<'_> {
             }
         }
         self.put(simd, tile, &batch, block);
+        true
     }
 
     /// The light of a pixel that shows two surfaces.

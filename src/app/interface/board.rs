@@ -34,8 +34,8 @@ const LEAST_TILES: f32 = 60.0;
 /// Width of the controls in one or two rows, in points.
 const CONTROLS: f32 = 660.0;
 
-/// Width of a card below which what leaves the board is in a list, in points: else it would stand in a third row.
-const NARROW: f32 = 400.0;
+/// Width of a card below which what leaves the board is in a list, in points: else some of it would stand in a row of its own.
+const NARROW: f32 = CONTROLS;
 
 /// Height of the list of settings, in points.
 const VARY_HEIGHT: f32 = 320.0;

@@ -1,7 +1,7 @@
 //! Tiles of flat colours, resolved into the means of their light: added up by surface.
 //!
-//! Where all surfaces are opaque, the pixels that several share are resolved sixteen at once from floats ([`NearLight`]); what that leaves
-//! open, and all others, by whole numbers.
+//! Where all surfaces are opaque and vectors are wide, the pixels that several share are resolved sixteen at once from floats
+//! ([`NearLight`]); what that leaves open, and all others, by whole numbers.
 
 #![expect(
     clippy::inline_always,

@@ -14,18 +14,17 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x16};
 
 use crate::geometry::FillRule;
-use crate::geometry::edge::edge_value;
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::covered::Covered;
-use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::polygon::OutlineWithEdges;
-use crate::raster::coverage::sample_lanes::{EdgeSteps, SampleLanes};
+use crate::raster::coverage::row_edges::{RowEdge, RowEdges};
+use crate::raster::coverage::sample_lanes::{SampleBlock, SampleLanes};
 use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::{Span, SpanRect};
+use crate::raster::span::{Span, SpanRect, to_index};
 use crate::simd;
 
 /// Remembers what outlines enclose in the tile row at work.
@@ -54,8 +53,17 @@ struct Stored {
 #[derive(Clone, Copy, Debug)]
 struct Run {
     pixels: Span,
-    /// The mask of a pixel that is enclosed in part.
-    mask: Option<u32>,
+    enclosed: Enclosed,
+}
+
+/// What is enclosed of each pixel of a run.
+#[derive(Clone, Copy, Debug)]
+enum Enclosed {
+    All,
+    /// These samples, or all of them.
+    Bits(u64),
+    /// The mask of that number.
+    Mask(u32),
 }
 
 /// An outline in one row of pixels, reusing its memory.
@@ -66,13 +74,13 @@ struct Sweep {
     /// The row, and its pixels that the outline may touch.
     y: i32,
     columns: Span,
-    /// By the first pixel that each may cross.
-    edges: Vec<LocalEdge>,
-    /// Those that may cross the pixel at work, by number.
+    edges: RowEdges,
+    /// Those that may cross the pixel at work, by number, and maybe some that lie left of it.
     active: Vec<u32>,
-    /// The last pixel that all of those may cross.
+    /// The last pixel that all of those may cross, and the last one that any may.
     last: i32,
-    /// How often those edges wind around each row of lattice points that lie left of the pixel at work as a whole.
+    farthest: i32,
+    /// How often all others that lie left of the pixel at work wind around each row of lattice points.
     windings: RowWindings,
     /// The same as what changes from row to row, where that is known.
     changes: Vec<(i32, i32)>,
@@ -80,19 +88,6 @@ struct Sweep {
     /// How often each sample of a pixel is wound around, and each row.
     around: Vec<i32>,
     rows: Vec<i32>,
-}
-
-/// An edge, the lattice rows of a pixel that it crosses, and the pixels that it may cross.
-#[derive(Clone, Copy, Debug)]
-struct LocalEdge {
-    /// The edge function at the first point of the row's pixel in column 0, and its steps: not below zero where the edge does not
-    /// lie right of a sample.
-    value: i64,
-    steps: EdgeSteps,
-    rows: Span,
-    winding: i32,
-    from: i32,
-    to: i32,
 }
 
 /// The samples of pixels: few enough to look at all of them at once, or many.
@@ -157,9 +152,10 @@ impl FreePositionsPolygon {
         samples: &mut PixelSamples<'_>,
         area: SpanRect,
     ) {
+        self.sweep.begin(outline, area);
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
-            self.sweep.gather(outline, area.x, y);
+            self.sweep.begin_row(y);
             if let PixelSamples::Few(lanes) = samples {
                 lanes.prepare(self.sweep.crossed());
             }
@@ -178,9 +174,12 @@ impl FreePositionsPolygon {
         let runs = &self.runs[self.starts[row]..self.starts[row + 1]];
         let skipped = runs.partition_point(|run| run.pixels.end <= xs.start);
         for run in runs[skipped..].iter().take_while(|run| run.pixels.start < xs.end) {
-            visit(match run.mask {
-                None => Covered::Whole(run.pixels.intersection(xs)),
-                Some(mask) => Covered::Part(run.pixels.start, self.masks[mask as usize]),
+            visit(match run.enclosed {
+                Enclosed::Bits(bits) if bits != self.all.low() => {
+                    Covered::Part(run.pixels.start, SampleMask::of_bits(bits))
+                }
+                Enclosed::Mask(number) => Covered::Part(run.pixels.start, self.masks[number as usize]),
+                Enclosed::All | Enclosed::Bits(_) => Covered::Whole(run.pixels.intersection(xs)),
             });
         }
     }
@@ -198,23 +197,39 @@ impl FreePositionsPolygon {
         // Where pixels end that no edge crosses, but whose rows are wound around otherwise, each by its samples.
         let mut uneven_end = x;
         while x < columns.end {
-            next = self.sweep.go_to(x, next);
-            if self.sweep.active.is_empty() {
-                let next_edge = self.sweep.edges.get(next);
-                let end = next_edge.map_or(columns.end, |edge| edge.from.min(columns.end));
-                if let Some(winding) = self.sweep.windings.even() {
+            if self.sweep.active.is_empty()
+                && let Some(winding) = self.sweep.windings.even()
+            {
+                let end = self.sweep.edges.here().get(next).map_or(columns.end, |edge| edge.from);
+                let end = end.min(columns.end);
+                if x < end {
                     if rule.encloses(winding) {
-                        self.push(first_run, Span { start: x, end }, None);
+                        self.push(first_run, Span { start: x, end }, Enclosed::All);
                     }
                     x = end;
                     continue;
                 }
-                if let PixelSamples::Few(lanes) = samples
-                    && x >= uneven_end
-                {
-                    lanes.prepare((x..end).map(|x| [x, y]));
-                    uneven_end = end;
+                if let PixelSamples::Few(lanes) = samples {
+                    let before = next;
+                    (x, next) = match self.sweep.alone(next) {
+                        Some(1) => self.few_edges::<S, 1>(simd, lanes, (x, next), winding),
+                        Some(2) => self.few_edges::<S, 2>(simd, lanes, (x, next), winding),
+                        _ => (x, next),
+                    };
+                    if next > before {
+                        continue;
+                    }
                 }
+            }
+            next = self.sweep.go_to(x, next);
+            if self.sweep.active.is_empty()
+                && self.sweep.windings.even().is_none()
+                && let PixelSamples::Few(lanes) = samples
+                && x >= uneven_end
+            {
+                let next_edge = self.sweep.edges.here().get(next);
+                uneven_end = next_edge.map_or(columns.end, |edge| edge.from.min(columns.end));
+                lanes.prepare((x..uneven_end).map(|x| [x, y]));
             }
             let pixel = Span { start: x, end: x + 1 };
             match samples {
@@ -222,17 +237,19 @@ impl FreePositionsPolygon {
                     lanes.go_to([x, y]);
                     let bits = self.sweep.enclosed_bits(simd, x, lanes);
                     if bits == lanes.all() {
-                        self.push(first_run, pixel, None);
+                        self.push(first_run, pixel, Enclosed::All);
                     } else if bits != 0 {
-                        self.push(first_run, pixel, Some(SampleMask::of_bits(bits)));
+                        self.push(first_run, pixel, Enclosed::Bits(bits));
                     }
                 }
                 PixelSamples::Many(places, memory) => {
                     let mask = self.sweep.enclosed(x, places.of_pixel([x, y], memory));
                     if mask == self.all {
-                        self.push(first_run, pixel, None);
+                        self.push(first_run, pixel, Enclosed::All);
                     } else if !mask.is_empty() {
-                        self.push(first_run, pixel, Some(mask));
+                        let number = u32::try_from(self.masks.len()).unwrap_or(u32::MAX);
+                        self.masks.push(mask);
+                        self.push(first_run, pixel, Enclosed::Mask(number));
                     }
                 }
             }
@@ -240,22 +257,106 @@ impl FreePositionsPolygon {
         }
         self.sweep
             .windings
-            .forget(self.sweep.edges.iter().map(|edge| edge.rows));
+            .forget(self.sweep.edges.here().iter().map(|edge| edge.rows));
+    }
+
+    /// Adds the pixels from `x` on that edge number `next` may cross, with those that follow it to `N` edges in all, which are
+    /// [alone](Sweep::alone); all that lies left of them winds around each sample as often as `winding` says. The pixel and the
+    /// edge that come next.
+    ///
+    /// What is true of a pixel is hard to foretell for a processor: so nothing here depends on it.
+    #[inline(always)]
+    fn few_edges<S: Simd, const N: usize>(
+        &mut self,
+        simd: S,
+        lanes: &mut SampleLanes,
+        (x, next): (i32, usize),
+        winding: i32,
+    ) -> (i32, usize) {
+        let sweep = &mut self.sweep;
+        let Some(edges) = sweep.edges.here()[next..].first_chunk::<N>().copied() else {
+            return (x, next);
+        };
+        let farthest = edges.iter().fold(i32::MIN, |farthest, edge| farthest.max(edge.to));
+        let end = (farthest + 1).min(sweep.columns.end).max(x);
+        let mut kept = self.runs.len();
+        self.runs.resize(kept + to_index(end - x), Run::NONE);
+        for x in x..end {
+            lanes.go_to([x, sweep.y]);
+            let mut bits = 0;
+            for (first, samples) in lanes.blocks(simd) {
+                let mut around = i32x16::splat(simd, winding);
+                for edge in &edges {
+                    around = wind(simd, (samples, around), edge, (x, sweep.grid.side()));
+                }
+                bits |= enclosed(simd, sweep.rule, around) << first;
+            }
+            bits &= lanes.all();
+            self.runs[kept] = Run {
+                pixels: Span { start: x, end: x + 1 },
+                enclosed: Enclosed::Bits(bits),
+            };
+            kept += usize::from(bits != 0);
+        }
+        self.runs.truncate(kept);
+        let takes_back = N == 2 && edges[0].winding == -edges[1].winding && edges[0].rows == edges[1].rows;
+        if !takes_back {
+            for edge in &edges {
+                sweep.windings.add(edge.rows, edge.winding);
+                sweep.are_changes_known = false;
+            }
+        }
+        (end, next + N)
     }
 
     #[inline]
-    fn push(&mut self, first_run: usize, pixels: Span, mask: Option<SampleMask>) {
-        let mask = mask.map(|mask| {
-            self.masks.push(mask);
-            u32::try_from(self.masks.len() - 1).unwrap_or(u32::MAX)
-        });
+    fn push(&mut self, first_run: usize, pixels: Span, enclosed: Enclosed) {
         match self.runs[first_run..].last_mut() {
-            Some(last) if mask.is_none() && last.mask.is_none() && last.pixels.end == pixels.start => {
-                last.pixels.end = pixels.end;
+            Some(Run {
+                pixels: last,
+                enclosed: Enclosed::All,
+            }) if matches!(enclosed, Enclosed::All) && last.end == pixels.start => {
+                last.end = pixels.end;
             }
-            _ => self.runs.push(Run { pixels, mask }),
+            _ => self.runs.push(Run { pixels, enclosed }),
         }
     }
+}
+
+impl Run {
+    const NONE: Self = Self {
+        pixels: Span::EMPTY,
+        enclosed: Enclosed::Bits(0),
+    };
+}
+
+/// How often samples are wound around with one more edge, in the pixel in column `x`, which has `side` rows of lattice points.
+#[inline(always)]
+fn wind<S: Simd>(
+    simd: S,
+    (samples, around): (SampleBlock<S>, i32x16<S>),
+    edge: &RowEdge,
+    (x, side): (i32, i32),
+) -> i32x16<S> {
+    let number = |number| i32x16::splat(simd, number);
+    let mut winds = samples.gains(edge.steps).inside(edge.value_at(x, side));
+    let Span { start, end } = edge.rows;
+    if end - start != side {
+        let rows = samples.rows();
+        winds &= rows.simd_ge(number(start)) & rows.simd_lt(number(end));
+    }
+    winds.select(around + number(edge.winding), around)
+}
+
+/// Which samples are enclosed that are wound around so often, as bits.
+#[inline(always)]
+fn enclosed<S: Simd>(simd: S, rule: FillRule, around: i32x16<S>) -> u64 {
+    let number = |number| i32x16::splat(simd, number);
+    let counted = match rule {
+        FillRule::NonZero => around,
+        FillRule::EvenOdd => around & number(1),
+    };
+    (!counted.simd_eq(number(0))).to_bitmask()
 }
 
 impl Sweep {
@@ -265,9 +366,10 @@ impl Sweep {
             rule: FillRule::NonZero,
             y: 0,
             columns: Span::EMPTY,
-            edges: Vec::new(),
+            edges: RowEdges::new(grid),
             active: Vec::new(),
             last: i32::MAX,
+            farthest: i32::MIN,
             windings: RowWindings::default(),
             changes: Vec::new(),
             are_changes_known: false,
@@ -276,92 +378,82 @@ impl Sweep {
         }
     }
 
-    /// Finds where the edges of an outline lie in row `y` of pixels, of which only `columns` count.
+    /// Begins with an outline in some pixels.
     #[inline(always)]
-    fn gather(&mut self, outline: OutlineWithEdges<'_>, columns: Span, y: i32) {
-        let grid = self.grid;
-        (self.rule, self.columns, self.y) = (outline.outline.rule, columns, y);
-        self.edges.clear();
+    fn begin(&mut self, outline: OutlineWithEdges<'_>, area: SpanRect) {
+        (self.rule, self.columns) = (outline.outline.rule, area.x);
+        self.edges.begin(outline, area);
+    }
+
+    /// Goes to a row of these pixels, one after the other.
+    #[inline(always)]
+    fn begin_row(&mut self, y: i32) {
+        self.y = y;
+        self.edges.go_to(y);
         self.active.clear();
-        (self.last, self.are_changes_known) = (i32::MAX, false);
-        let first_point = self.first_point(0);
-        let (top, width) = (y * grid.side(), grid.units_per_pixel());
-        let rows = Span {
-            start: top,
-            end: top + grid.side(),
-        };
-        for (edge, inside) in outline.edges_in(rows) {
-            let line = Line::new(edge.top, edge.bottom);
-            let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
-            let (first, last) = (at(inside.start), at(inside.end - 1));
-            self.edges.push(LocalEdge {
-                // What the function gains from sample to sample are multiples of their distance: divided by that, and rounded
-                // down, the side does not change. Downwards, the right of the edge on the screen is where it is negative.
-                value: -edge_value(edge.top, edge.bottom, first_point) >> grid.bits(),
-                steps: EdgeSteps::new(edge.bottom.y - edge.top.y, edge.top.x - edge.bottom.x),
-                rows: Span {
-                    start: inside.start - top,
-                    end: inside.end - top,
-                },
-                winding: edge.winding,
-                from: pixel((first.min(last) - MARGIN) / width, columns),
-                to: pixel((first.max(last) + MARGIN) / width, columns),
-            });
-        }
-        self.edges.sort_unstable_by_key(|edge| edge.from);
+        (self.last, self.farthest, self.are_changes_known) = (i32::MAX, i32::MIN, false);
     }
 
     /// The pixels of the row that edges may cross, from left to right.
     fn crossed(&self) -> impl Iterator<Item = [i32; 2]> {
         let (y, Span { start, end }) = (self.y, self.columns);
         let mut next = start;
-        self.edges.iter().flat_map(move |edge| {
+        self.edges.here().iter().flat_map(move |edge| {
             let xs = edge.from.max(next)..(edge.to + 1).min(end);
             next = next.max(xs.end);
             xs.map(move |x| [x, y])
         })
     }
 
+    /// How many edges from number `next` on reach into each other's pixels, if these are one or two.
+    #[inline(always)]
+    fn alone(&self, next: usize) -> Option<usize> {
+        let edges = &self.edges.here()[next..];
+        let first = edges.first()?;
+        let is_beyond = |number: usize, reach: i32| edges.get(number).is_none_or(|edge| edge.from > reach);
+        if is_beyond(1, first.to) {
+            return Some(1);
+        }
+        is_beyond(2, first.to.max(edges[1].to)).then_some(2)
+    }
+
     /// Finds the edges that may cross a pixel, where `next` is the first edge that none before it reached: those that lie left
     /// of it from now on wind around whole rows. The first edge that this pixel does not reach.
     #[inline(always)]
     fn go_to(&mut self, x: i32, mut next: usize) -> usize {
-        while let Some(edge) = self.edges.get(next)
+        /// So few are asked for as long as any may cross the pixel: all answers are exact.
+        const FEW: usize = 3;
+        while let Some(edge) = self.edges.here().get(next)
             && edge.from <= x
         {
             self.active.push(u32::try_from(next).unwrap_or(u32::MAX));
-            self.last = self.last.min(edge.to);
+            (self.last, self.farthest) = (self.last.min(edge.to), self.farthest.max(edge.to));
             next += 1;
         }
-        if self.last >= x {
+        if self.last >= x || self.farthest >= x && self.active.len() <= FEW {
             return next;
         }
-        self.last = i32::MAX;
-        self.are_changes_known = false;
-        let Self {
-            edges, windings, last, ..
-        } = self;
-        self.active.retain(|number| {
-            let edge = &edges[*number as usize];
-            let is_here = edge.to >= x;
-            if is_here {
-                *last = edge.to.min(*last);
-            } else {
-                windings.add(edge.rows, edge.winding);
-            }
-            is_here
-        });
+        self.leave_behind(x);
         next
     }
 
-    /// The first lattice point of the pixel in column `x`.
-    #[inline(always)]
-    fn first_point(&self, x: i32) -> GridPoint {
-        let first = |pixel: i32| self.grid.sample_coordinate(pixel * self.grid.side());
-        GridPoint {
-            x: first(x),
-            y: first(self.y),
+    /// Takes leave of the edges that lie left of a pixel.
+    fn leave_behind(&mut self, x: i32) {
+        (self.last, self.farthest) = (i32::MAX, i32::MIN);
+        self.are_changes_known = false;
+        let mut kept = 0;
+        for i in 0..self.active.len() {
+            let number = self.active[i];
+            let edge = &self.edges.here()[number as usize];
+            if edge.to < x {
+                self.windings.add(edge.rows, edge.winding);
+                continue;
+            }
+            (self.last, self.farthest) = (self.last.min(edge.to), self.farthest.max(edge.to));
+            self.active[kept] = number;
+            kept += 1;
         }
+        self.active.truncate(kept);
     }
 
     /// The samples of the pixel in column `x` that are inside, as bits; `lanes` stand at it.
@@ -372,6 +464,7 @@ impl Sweep {
             self.are_changes_known = true;
         }
         let (side, number) = (self.grid.side(), |number| i32x16::splat(simd, number));
+        let edges = self.edges.here();
         let mut bits = 0;
         for (first, samples) in lanes.blocks(simd) {
             let (rows, mut around) = (samples.rows(), number(self.windings.of_first()));
@@ -379,19 +472,9 @@ impl Sweep {
                 around = rows.simd_ge(number(*row)).select(around + number(*change), around);
             }
             for active in &self.active {
-                let edge = &self.edges[*active as usize];
-                let mut winds = samples.gains(edge.steps).inside(edge.value_at(x, side));
-                let Span { start, end } = edge.rows;
-                if end - start != side {
-                    winds &= rows.simd_ge(number(start)) & rows.simd_lt(number(end));
-                }
-                around = winds.select(around + number(edge.winding), around);
+                around = wind(simd, (samples, around), &edges[*active as usize], (x, side));
             }
-            let counted = match self.rule {
-                FillRule::NonZero => around,
-                FillRule::EvenOdd => around & number(1),
-            };
-            bits |= (!counted.simd_eq(number(0))).to_bitmask() << first;
+            bits |= enclosed(simd, self.rule, around) << first;
         }
         bits & lanes.all()
     }
@@ -407,7 +490,7 @@ impl Sweep {
             self.around.extend(rows);
         }
         for number in &self.active {
-            let edge = &self.edges[*number as usize];
+            let edge = &self.edges.here()[*number as usize];
             let value = edge.value_at(x, self.grid.side());
             let [right, down] = [edge.steps.right, edge.steps.down].map(i64::from);
             let rows = i64::from(edge.rows.start)..i64::from(edge.rows.end);
@@ -425,21 +508,4 @@ impl Sweep {
         mask.set_each(places.len(), |sample| self.rule.encloses(self.around[sample]));
         mask
     }
-}
-
-impl LocalEdge {
-    /// The edge function at the first point of the row's pixel in column `x`, where pixels have so many columns.
-    #[inline(always)]
-    fn value_at(&self, x: i32, side: i32) -> i64 {
-        self.value + i64::from(self.steps.right) * i64::from(x) * i64::from(side)
-    }
-}
-
-/// The pixel that holds a column; just before the first of `columns` or just after the last at most.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "clamped to the pixels of a frame")]
-fn pixel(column: f64, columns: Span) -> i32 {
-    let pixel = column.clamp(f64::from(columns.start) - 1.0, f64::from(columns.end));
-    // Rounded down: `floor` is not a single instruction on every machine.
-    (pixel + 1.0) as i32 - 1
 }

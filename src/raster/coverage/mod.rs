@@ -33,7 +33,7 @@
 //!   where thousands do.
 //! * [`mask8x8`] and [`mask8x8_simd`] hold small shapes as 64 bits.
 //! * [`free_positions`], [`free_positions_triangle`] and [`free_positions_polygon`] serve patterns off the grid, with
-//!   [`sample_lanes`], [`windings`] and [`edge_bounds`].
+//!   [`sample_lanes`], [`row_edges`], [`windings`] and [`edge_bounds`].
 //!
 //! What was tried to have fewer ways still, in instructions per redraw:
 //!
@@ -65,6 +65,7 @@ pub(in crate::raster) mod outline_cache;
 pub(in crate::raster) mod pixel_rows;
 pub(in crate::raster) mod polygon;
 pub(in crate::raster) mod polygon_rows;
+mod row_edges;
 mod sample_lanes;
 pub(in crate::raster) mod shape;
 pub(in crate::raster) mod shape_coverage;

@@ -125,13 +125,13 @@ impl SampleLanes {
         }
         self.missing.clear();
         // More would take the place of the first ones.
-        for pixel in pixels.take(KEPT) {
+        pixels.take(KEPT).for_each(|pixel| {
             let at = kept_at(pixel);
             if self.pixels[at] != pixel {
                 self.pixels[at] = pixel;
                 self.missing.push(at);
             }
-        }
+        });
         if self.missing.is_empty() {
             return;
         }

@@ -209,16 +209,11 @@ impl FreePositionsPolygon {
                     x = end;
                     continue;
                 }
-                if let PixelSamples::Few(lanes) = samples {
-                    let before = next;
-                    (x, next) = match self.sweep.alone(next) {
-                        Some(1) => self.few_edges::<S, 1>(simd, lanes, (x, next), winding),
-                        Some(2) => self.few_edges::<S, 2>(simd, lanes, (x, next), winding),
-                        _ => (x, next),
-                    };
-                    if next > before {
-                        continue;
-                    }
+                if let PixelSamples::Few(lanes) = samples
+                    && let Some(after) = self.edges_alone(simd, lanes, (x, next), winding)
+                {
+                    (x, next) = after;
+                    continue;
                 }
             }
             next = self.sweep.go_to(x, next);
@@ -229,7 +224,11 @@ impl FreePositionsPolygon {
             {
                 let next_edge = self.sweep.edges.here().get(next);
                 uneven_end = next_edge.map_or(columns.end, |edge| edge.from.min(columns.end));
-                lanes.prepare((x..uneven_end).map(|x| [x, y]));
+                let columns = Span {
+                    start: x,
+                    end: uneven_end,
+                };
+                lanes.prepare(std::iter::once((columns, y)));
             }
             let pixel = Span { start: x, end: x + 1 };
             match samples {
@@ -260,9 +259,24 @@ impl FreePositionsPolygon {
             .forget(self.sweep.edges.here().iter().map(|edge| edge.rows));
     }
 
-    /// Adds the pixels from `x` on that edge number `next` may cross, with those that follow it to `N` edges in all, which are
-    /// [alone](Sweep::alone); all that lies left of them winds around each sample as often as `winding` says. The pixel and the
-    /// edge that come next.
+    /// Adds the pixels from `x` on that edge number `next` may cross, and the one after it where it reaches into these; the pixel
+    /// and the edge that come next. `None` where more edges do.
+    #[inline(always)]
+    fn edges_alone<S: Simd>(
+        &mut self,
+        simd: S,
+        lanes: &mut SampleLanes,
+        at: (i32, usize),
+        winding: i32,
+    ) -> Option<(i32, usize)> {
+        match self.sweep.alone(at.1)? {
+            1 => Some(self.few_edges::<S, 1>(simd, lanes, at, winding)),
+            _ => Some(self.few_edges::<S, 2>(simd, lanes, at, winding)),
+        }
+    }
+
+    /// As [`FreePositionsPolygon::edges_alone`] where `N` edges are; all that lies left of them winds around each sample as often
+    /// as `winding` says.
     ///
     /// What is true of a pixel is hard to foretell for a processor: so nothing here depends on it.
     #[inline(always)]
@@ -395,13 +409,16 @@ impl Sweep {
     }
 
     /// The pixels of the row that edges may cross, from left to right.
-    fn crossed(&self) -> impl Iterator<Item = [i32; 2]> {
+    fn crossed(&self) -> impl Iterator<Item = (Span, i32)> {
         let (y, Span { start, end }) = (self.y, self.columns);
         let mut next = start;
-        self.edges.here().iter().flat_map(move |edge| {
-            let xs = edge.from.max(next)..(edge.to + 1).min(end);
-            next = next.max(xs.end);
-            xs.map(move |x| [x, y])
+        self.edges.here().iter().map(move |edge| {
+            let columns = Span {
+                start: edge.from.max(next),
+                end: (edge.to + 1).min(end),
+            };
+            next = next.max(columns.end);
+            (columns, y)
         })
     }
 

@@ -64,6 +64,9 @@ pub(super) struct FoundPixels {
     values: Vec<[i64; 3]>,
     /// How many of these were found; others are left over.
     count: usize,
+    /// Which of them are to be looked at, and how many these are, where that was asked for.
+    open: Vec<usize>,
+    open_count: usize,
 }
 
 /// Rows that are bounded together.
@@ -245,17 +248,13 @@ impl TriangleScan {
         let mut parts = std::mem::take(&mut found.parts);
         self.find_parts(simd, &mut parts);
         found.begin(self.columns, self.rows);
-        for (y, RowParts { before, inside, after }) in (self.rows.start..).zip(&parts) {
-            self.note(*before, y, found);
-            if !inside.is_empty() {
-                let (xs, bits) = (*inside, lanes.all());
-                found.put(FoundRun { y, xs, bits }, [INSIDE; 3]);
-                found.count += 1;
-            }
-            self.note(*after, y, found);
+        if lanes.are_same() {
+            self.note_rows::<false>(&parts, lanes.all(), found);
+        } else {
+            self.note_rows::<true>(&parts, lanes.all(), found);
         }
         found.parts = parts;
-        let (runs, values) = (&mut found.runs[..found.count], &found.values);
+        let (runs, values) = (&mut found.runs[..found.count], &found.values[..found.count]);
         if lanes.are_same() {
             for (first, samples) in lanes.blocks(simd) {
                 let gains = self.gains_of(samples);
@@ -265,13 +264,29 @@ impl TriangleScan {
             }
             return;
         }
-        let open = runs.iter().filter(|run| run.bits == 0);
-        lanes.prepare(open.map(|run| [run.xs.start, run.y]));
-        for (run, values) in runs.iter_mut().zip(values).filter(|(run, _)| run.bits == 0) {
+        let open = &found.open[..found.open_count];
+        lanes.prepare(open.iter().map(|i| (runs[*i].xs, runs[*i].y)));
+        for i in open {
+            let (run, values) = (&mut runs[*i], values[*i]);
             lanes.go_to([run.xs.start, run.y]);
             for (first, samples) in lanes.blocks(simd) {
-                run.bits |= inside_all(self.gains_of(samples), *values) << first & lanes.all();
+                run.bits |= inside_all(self.gains_of(samples), values) << first & lanes.all();
             }
+        }
+    }
+
+    /// Notes the pixels of all rows that it may touch; those that are covered for certain have `all` samples. Which are to be looked
+    /// at is noted where they are `OPEN`.
+    #[inline(never)]
+    fn note_rows<const OPEN: bool>(&self, parts: &[RowParts], all: u64, found: &mut FoundPixels) {
+        for (y, RowParts { before, inside, after }) in (self.rows.start..).zip(parts) {
+            self.note::<OPEN>(*before, y, found);
+            if !inside.is_empty() {
+                let (xs, bits) = (*inside, all);
+                found.put(FoundRun { y, xs, bits }, [INSIDE; 3]);
+                found.count += 1;
+            }
+            self.note::<OPEN>(*after, y, found);
         }
     }
 
@@ -285,7 +300,7 @@ impl TriangleScan {
 
     /// Notes the pixels of a row that it may touch, with the values of the edges there.
     #[inline(always)]
-    fn note(&self, xs: Span, y: i32, found: &mut FoundPixels) {
+    fn note<const OPEN: bool>(&self, xs: Span, y: i32, found: &mut FoundPixels) {
         if xs.is_empty() {
             // An empty span may start anywhere, where no edge has a value.
             return;
@@ -300,7 +315,12 @@ impl TriangleScan {
                 farthest |= *value + edge.most;
                 *value += edge.right_pixel;
             }
-            found.count += usize::from(farthest >= 0);
+            let is_open = usize::from(farthest >= 0);
+            if OPEN {
+                found.open[found.open_count] = found.count;
+                found.open_count += is_open;
+            }
+            found.count += is_open;
         }
     }
 }
@@ -318,8 +338,9 @@ impl FoundPixels {
         if self.runs.len() < most {
             self.runs.resize(most, FoundRun::default());
             self.values.resize(most, [0; 3]);
+            self.open.resize(most, 0);
         }
-        self.count = 0;
+        (self.count, self.open_count) = (0, 0);
     }
 
     /// Writes a run that counts once it is counted.

@@ -14,6 +14,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i16x32, i32x16, mask32x16, u8x32, u32x16};
 
 use crate::raster::sampling::positions::{Position, SamplePositions};
+use crate::raster::span::Span;
 
 /// The most samples that a pixel may have here: a bit for each.
 const MOST: usize = 64;
@@ -38,7 +39,8 @@ pub(in crate::raster) struct SampleLanes {
     kept: Vec<[Position; TOGETHER]>,
     /// The first ones of the pixel at work.
     first: usize,
-    /// Pixels whose places are to be found, as they are kept, with the random bits that say so, and memory for what is found.
+    /// Pixels whose places are to be found, as they are kept, and room for more; with the random bits that say so, and memory for
+    /// what is found.
     missing: Vec<usize>,
     random: Vec<u64>,
     memory: Vec<Position>,
@@ -83,7 +85,7 @@ impl SampleLanes {
             pixels: vec![[i32::MIN; 2]; pixels],
             kept: vec![[[0; 2]; TOGETHER]; pixels.max(1) * count.div_ceil(TOGETHER)],
             first: 0,
-            missing: Vec::new(),
+            missing: vec![0; pixels],
             random: Vec::new(),
             memory: Vec::new(),
             positions,
@@ -113,34 +115,50 @@ impl SampleLanes {
         }
         let at = kept_at(pixel);
         if self.pixels[at] != pixel {
-            self.prepare([pixel].into_iter());
+            let [x, y] = pixel;
+            self.prepare(std::iter::once((Span { start: x, end: x + 1 }, y)));
         }
         self.first = at * self.count.div_ceil(TOGETHER);
     }
 
-    /// Finds the places of the samples of pixels that are about to be gone to: together they cost far less.
-    pub(super) fn prepare(&mut self, pixels: impl Iterator<Item = [i32; 2]>) {
-        if self.pixels.is_empty() {
+    /// Finds the places of the samples of pixels that are about to be gone to, columns of a row at a time: together they cost far less.
+    pub(super) fn prepare(&mut self, runs: impl Iterator<Item = (Span, i32)>) {
+        let Self {
+            positions,
+            count: samples,
+            pixels: latest,
+            kept,
+            missing,
+            random,
+            memory,
+            ..
+        } = self;
+        if latest.is_empty() {
             return;
         }
-        self.missing.clear();
-        // More would take the place of the first ones.
-        pixels.take(KEPT).for_each(|pixel| {
-            let at = kept_at(pixel);
-            if self.pixels[at] != pixel {
-                self.pixels[at] = pixel;
-                self.missing.push(at);
+        let mut count = 0;
+        'all: for (columns, y) in runs {
+            for x in columns.start..columns.end {
+                let (pixel, at) = ([x, y], kept_at([x, y]));
+                // Noted first and counted where it is missing: shapes side by side share pixels, and a branch would be taken by chance.
+                let Some(missing) = missing.get_mut(count) else {
+                    // More would take the place of the first ones.
+                    break 'all;
+                };
+                *missing = at;
+                count += usize::from(latest[at] != pixel);
+                latest[at] = pixel;
             }
-        });
-        if self.missing.is_empty() {
+        }
+        let missing = &missing[..count];
+        if missing.is_empty() {
             return;
         }
-        self.memory.clear();
-        let missing = self.missing.iter().map(|at| self.pixels[*at]);
-        self.positions.add(missing, &mut self.random, &mut self.memory);
-        let blocks = self.count.div_ceil(TOGETHER);
-        for (at, places) in self.missing.iter().zip(self.memory.chunks_exact(self.count)) {
-            let kept = &mut self.kept[at * blocks..][..blocks];
+        memory.clear();
+        positions.add(missing.iter().map(|at| latest[*at]), random, memory);
+        let blocks = samples.div_ceil(TOGETHER);
+        for (at, places) in missing.iter().zip(memory.chunks_exact(*samples)) {
+            let kept = &mut kept[at * blocks..][..blocks];
             let (full, rest) = places.as_chunks();
             // Not as a slice, which would be a call.
             for (kept, full) in kept.iter_mut().zip(full) {
@@ -275,7 +293,11 @@ mod tests {
                 if u.arbitrary()? {
                     // Some of them in its place.
                     let before = pixel[0] - u.int_in_range(0..=5)? * 1000;
-                    lanes.prepare((before..before + 2010).map(|x| [x, pixel[1]]));
+                    let columns = Span {
+                        start: before,
+                        end: before + 2010,
+                    };
+                    lanes.prepare(std::iter::once((columns, pixel[1])));
                 }
                 lanes.go_to(pixel);
                 let steps = EdgeSteps::new(right, down);

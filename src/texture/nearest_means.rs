@@ -65,7 +65,13 @@ pub(super) fn means<S: Simd, const N: usize>(
     let middle = samples.middle(plan);
     let texels = samples.level.level.texels();
     let mut found = Found::<N>::NONE;
-    for (pixels, values) in pixels.chunks(MAX_LANES).zip(values.chunks_mut(MAX_LANES)) {
+    let last = pixels.len().saturating_sub(MAX_LANES);
+    for first in (0..pixels.len()).step_by(MAX_LANES) {
+        // The last ones are found together with some before them, once more: so all loops are as long as vectors.
+        let first = first.min(last);
+        let (pixels, values) = (&pixels[first..], &mut values[first..]);
+        let count = pixels.len().min(MAX_LANES);
+        let (pixels, values) = (&pixels[..count], &mut values[..count]);
         let mut uncertain = found.find(simd, samples, (pixels, 0), middle);
         for first in (0..pixels.len()).step_by(S::u32s::LEN).skip(1) {
             uncertain |= found.find(simd, samples, (pixels, first), middle).from(first);

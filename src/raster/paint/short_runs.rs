@@ -1,9 +1,9 @@
-//! Fills and copies runs of values side by side. Most are a few pixels long, for which a call, or a loop over single values, would take
-//! longer: the longest piece that fits is put again and again, and once more up to the end.
+//! Fills and copies runs of values side by side. Most are a few pixels long, for which a call, or a loop whose length nobody can
+//! foretell, would take longer: the longest piece that fits is put at the start, and once more at the end.
 //!
 //! ```text
-//!    |- - - - 8 - - - -|- - - - 8 - - - -|
-//!                   |- - - - 8 - - - -|      the last piece overlaps
+//!    |- - - - 8 - - - -|
+//!             |- - - - 8 - - - -|      they overlap
 //! ```
 
 #![expect(clippy::inline_always, reason = "a piece of a known length is put from registers")]
@@ -11,7 +11,13 @@
 /// Fills a run.
 #[inline(always)]
 pub(super) fn fill_run<T: Copy>(run: &mut [T], value: T) {
-    if !(fill::<T, 8>(run, value) || fill::<T, 4>(run, value) || fill::<T, 2>(run, value))
+    if run.len() > 2 * LONGEST {
+        run.fill(value);
+    } else if !(fill::<T, LONGEST>(run, value)
+        || fill::<T, 16>(run, value)
+        || fill::<T, 8>(run, value)
+        || fill::<T, 4>(run, value)
+        || fill::<T, 2>(run, value))
         && let [one] = run
     {
         *one = value;
@@ -21,35 +27,46 @@ pub(super) fn fill_run<T: Copy>(run: &mut [T], value: T) {
 /// Copies values to a run of as many.
 #[inline(always)]
 pub(super) fn copy_run<T: Copy>(values: &[T], run: &mut [T]) {
-    if !(copy::<T, 8>(values, run) || copy::<T, 4>(values, run) || copy::<T, 2>(values, run))
+    if run.len() > 2 * LONGEST {
+        run.copy_from_slice(values);
+    } else if !(copy::<T, LONGEST>(values, run)
+        || copy::<T, 16>(values, run)
+        || copy::<T, 8>(values, run)
+        || copy::<T, 4>(values, run)
+        || copy::<T, 2>(values, run))
         && let ([value], [one]) = (values, run)
     {
         *one = *value;
     }
 }
 
-/// Fills by pieces of `N`; `false` where there is not even one.
+/// Values of the longest piece.
+const LONGEST: usize = 32;
+
+/// Fills by two pieces of `N`, which leave nothing out between them; `false` where there is not even one.
 #[inline(always)]
 fn fill<T: Copy, const N: usize>(run: &mut [T], value: T) -> bool {
-    let Some(last) = run.last_chunk_mut::<N>() else {
+    let Some(first) = run.first_chunk_mut::<N>() else {
         return false;
     };
-    *last = [value; N];
-    for piece in run.as_chunks_mut::<N>().0 {
-        *piece = [value; N];
+    *first = [value; N];
+    if let Some(last) = run.last_chunk_mut::<N>() {
+        *last = [value; N];
     }
     true
 }
 
-/// Copies by pieces of `N`; `false` where there is not even one.
+/// Copies by two pieces of `N`, which leave nothing out between them; `false` where there is not even one.
 #[inline(always)]
 fn copy<T: Copy, const N: usize>(values: &[T], run: &mut [T]) -> bool {
-    let (Some(last), Some(to_last)) = (values.last_chunk::<N>(), run.last_chunk_mut::<N>()) else {
+    let (Some(first), Some(last)) = (values.first_chunk::<N>(), values.last_chunk::<N>()) else {
         return false;
     };
-    *to_last = *last;
-    for (piece, values) in run.as_chunks_mut::<N>().0.iter_mut().zip(values.as_chunks::<N>().0) {
-        *piece = *values;
+    if let Some(to_first) = run.first_chunk_mut::<N>() {
+        *to_first = *first;
+    }
+    if let Some(to_last) = run.last_chunk_mut::<N>() {
+        *to_last = *last;
     }
     true
 }
@@ -60,7 +77,7 @@ mod tests {
 
     #[test]
     fn runs_of_any_length_are_filled_and_copied_and_nothing_around_them() {
-        for length in 0..40_usize {
+        for length in 0..80_usize {
             let values: Vec<usize> = (1..=length).collect();
             let (mut filled, mut copied) = (vec![0; length + 4], vec![0; length + 4]);
             fill_run(&mut filled[2..length + 2], 7);

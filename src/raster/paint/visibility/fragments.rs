@@ -24,7 +24,7 @@ pub(super) struct Fragments<'f> {
 pub(super) struct FragmentSums {
     /// Pixels of the tile all of whose samples count.
     whole: Vec<[u16; 2]>,
-    pub(super) whole_sums: Vec<[u32; 4]>,
+    whole_sums: Vec<[u32; 4]>,
     /// Others, which of their samples count, and where their sums go.
     places: Vec<[u16; 2]>,
     masks: Vec<u64>,
@@ -50,14 +50,19 @@ impl FragmentSums {
             PixelRun::add_places(runs, &mut self.whole);
         }
         self.gather(fragments, 0);
-        clear(&mut self.whole_sums, self.whole.len());
-        clear(&mut self.sums, self.places.len());
+        let whole_sums = room_for(&mut self.whole_sums, self.whole.len());
+        let sums = room_for(&mut self.sums, self.places.len());
         let pixels = |places| Pixels { grid, places };
         let wanted = Wanted {
-            sums: [&mut self.whole_sums, &mut self.sums],
+            sums: [whole_sums, sums],
             means,
         };
         shader.sums_or_means(pixels(&self.whole), pixels(&self.places).masked(&self.masks, 0), wanted)
+    }
+
+    /// The sums of whole pixels, or one for each run, after [`FragmentSums::find`] that did not find their means.
+    pub(super) fn whole_sums(&mut self) -> &mut [[u32; 4]] {
+        &mut self.whole_sums[..self.whole.len()]
     }
 
     /// Calls `add` with the sum of every part of a pixel, after [`FragmentSums::find`]: with the number of the pixel, the sum, and how
@@ -74,13 +79,13 @@ impl FragmentSums {
         for first in (0..fragments.count).step_by(MASK_BITS) {
             if first > 0 {
                 self.gather(fragments, first);
-                clear(&mut self.sums, self.places.len());
+                let sums = room_for(&mut self.sums, self.places.len());
                 let pixels = Pixels {
                     grid,
                     places: &self.places,
                 };
                 if !self.places.is_empty() {
-                    shader.masked_sums(pixels.masked(&self.masks, first), &mut self.sums);
+                    shader.masked_sums(pixels.masked(&self.masks, first), sums);
                 }
             }
             for ((target, sum), mask) in self.targets.iter().zip(&self.sums).zip(&self.masks) {
@@ -107,8 +112,14 @@ impl FragmentSums {
     }
 }
 
-/// Makes so many sums of nothing.
-fn clear(sums: &mut Vec<[u32; 4]>, count: usize) {
-    sums.clear();
-    sums.resize(count, [0; 4]);
+/// Room for so many sums. What stands there is left as it is: whoever finds sums writes all of them.
+fn room_for(sums: &mut Vec<[u32; 4]>, count: usize) -> &mut [[u32; 4]] {
+    if sums.len() < count {
+        sums.resize(count, [0; 4]);
+    }
+    let room = &mut sums[..count];
+    if cfg!(debug_assertions) {
+        room.fill([u32::MAX; 4]);
+    }
+    room
 }

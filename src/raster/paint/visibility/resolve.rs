@@ -354,7 +354,7 @@ impl VisibilityPainter<'_> {
                 }
             }
             let are_means = shading.find(whole, grid, &shader, means);
-            let found = &mut shading.whole_sums;
+            let found = shading.whole_sums();
             *samples_shaded += shader.evaluations(found.len() as u64 * u64::from(count), found.len());
             if !are_means {
                 shown.over_each_shaded(found, kept, count);

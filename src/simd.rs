@@ -1,11 +1,13 @@
 //! Which vector instructions the kernels use: the best the machine has, or fewer where a user or a test says so.
 
 mod packed;
+mod put;
 
 use std::sync::OnceLock;
 
 pub use fearless_simd::Level;
 pub(crate) use packed::{PACKED, pack_four};
+pub(crate) use put::put_lanes;
 
 const _: () = assert!(
     cfg!(target_endian = "little"),

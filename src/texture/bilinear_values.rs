@@ -19,6 +19,7 @@ use super::nearest_values::{ByteValues, ValueList};
 use super::sample_blocks::{BlockAxis, Blocks, Inside, LANES, Steps, halves, is_in_doubt, is_near, number};
 use super::{PixelSampling, Wrap, sample_filter};
 use crate::color::{NearLight, Premultiplied16, near_light};
+use crate::simd::put_lanes;
 
 /// Fewer samples do not fill a vector well enough.
 const FEWEST: usize = 9;
@@ -96,7 +97,7 @@ impl<'w> BilinearList<'w> {
         for (first, pixels) in (0..).step_by(LANES).zip(pixels.chunks_mut(LANES)) {
             let Sums { sums, known } = self.sums_of_some::<S, true>(simd, &mut scratch, (first, pixels.len()));
             let (found, certain) = near.pixels(simd, sums);
-            pixels.copy_from_slice(&found.to_array()[..pixels.len()]);
+            put_lanes(found, pixels);
             let left = !(certain & known) & first_bits(pixels.len());
             open.extend(ones(left).map(|i| first + i));
         }

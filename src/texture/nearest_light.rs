@@ -22,6 +22,7 @@ use super::nearest_sums::Found;
 use super::nearest_values::{ValueList, add, exact};
 use super::texel_coordinates::MAX_LANES;
 use crate::color::{LightResolver, NearLight, near_light};
+use crate::simd::put_lanes;
 
 /// The opaque pixels of a list without masks, whose samples lie in the same places in all; `false` where other texels than the
 /// nearest are read.
@@ -147,11 +148,7 @@ impl<const N: usize> LightWork<'_, N> {
         pixels: &mut [u32],
     ) {
         let (found, certain) = self.near.pixels(simd, sums);
-        if let Some(pixels) = pixels.first_chunk_mut::<MAX_LANES>() {
-            found.store_array(pixels);
-        } else {
-            pixels.copy_from_slice(&found.to_array()[..pixels.len()]);
-        }
+        put_lanes(found, pixels);
         for lane in ones(!certain & ((1 << pixels.len()) - 1)) {
             pixels[lane] = self.near.resolver().opaque_pixel(of_lane(lane));
         }

@@ -19,6 +19,7 @@ use super::nearest_samples::NearestSamples;
 use super::nearest_sums::{Found, exact_sum};
 use super::texel_coordinates::MAX_LANES;
 use crate::color::Resolver;
+use crate::simd::put_lanes;
 
 /// Every other byte.
 const EVERY_OTHER: u32 = 0x00FF_00FF;
@@ -84,11 +85,7 @@ pub(super) fn means<S: Simd, const N: usize>(
             green_alpha += texels >> 8 & EVERY_OTHER;
         }
         let means = mean.pixels(simd, red_blue, green_alpha);
-        if let Some(all) = values.first_chunk_mut::<MAX_LANES>() {
-            means.store_array(all);
-        } else {
-            values.copy_from_slice(&means.to_array()[..values.len()]);
-        }
+        put_lanes(means, values);
         for lane in uncertain.lanes(pixels.len()) {
             values[lane] = mean
                 .resolver

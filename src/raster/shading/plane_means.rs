@@ -10,7 +10,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x16, u32x16};
+use fearless_simd::{Simd, dispatch, f32x16};
 
 use crate::color::{PIXELS, Premultiplied16, SampleMean};
 use crate::raster::SampleRate;
@@ -110,7 +110,7 @@ fn means_with<S: Simd>(
                 )
             },
         );
-        put(pixels, values);
+        simd::put_lanes(pixels, values);
         open.extend(lanes_without(certain, values.len()).map(|i| range.start + i));
     }
     if !open.is_empty() {
@@ -149,18 +149,8 @@ fn bounded_with<S: Simd>(
                 }
             },
         );
-        put(pixels, values);
+        simd::put_lanes(pixels, values);
         open.extend(lanes_without(certain, values.len()).map(|i| block * PIXELS + i));
-    }
-}
-
-/// Puts as many of the pixels as there is room for.
-#[inline(always)]
-fn put<S: Simd>(pixels: u32x16<S>, values: &mut [u32]) {
-    if let Some(values) = values.first_chunk_mut() {
-        pixels.store_array(values);
-    } else {
-        values.copy_from_slice(&pixels.as_slice()[..values.len()]);
     }
 }
 

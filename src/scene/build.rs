@@ -134,6 +134,13 @@ impl<'doc> Builder<'doc> {
         self.report.warn(location, message);
     }
 
+    /// Reports what of the document's style sheets has no effect.
+    pub(super) fn tell_of_styles(&mut self) {
+        for (at, message) in self.source.told() {
+            self.report.warn(self.lines.locate(*at), message.clone());
+        }
+    }
+
     /// The shape of an element; what is pushed with it belongs to it.
     pub(super) fn shape(&mut self, node: Node<'_, '_>) -> ShapeId {
         self.shape_used(node, None)

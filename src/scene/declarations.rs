@@ -7,12 +7,10 @@ use std::ops::Range;
 
 use simplecss::DeclarationTokenizer;
 
+use super::css::{block_end, block_start};
 use super::css_colors;
 use super::edits::Edits;
-use super::substitutes::{Markup, block_end};
-
-/// What is left of a rule inside another, so that it can be told: a declaration of nothing.
-pub(super) const NESTED: &str = "x--:1;";
+use super::substitutes::Markup;
 
 /// The document without such declarations, without comments in styles, and without the height of lines in `font`.
 pub(super) fn mended(text: Cow<'_, str>) -> Cow<'_, str> {
@@ -23,9 +21,6 @@ pub(super) fn mended(text: Cow<'_, str>) -> Cow<'_, str> {
     let mut blocks = markup.styles;
     let mut comments = Edits::default();
     for sheet in markup.sheets {
-        for mark in marks_of_html(&text[sheet.clone()]) {
-            blank(&text, moved(mark, sheet.start), &mut comments);
-        }
         blocks.extend(blocks_of_sheet(&text, sheet));
     }
     for block in &blocks {
@@ -58,7 +53,7 @@ fn blocks_of_sheet(text: &str, sheet: Range<usize>) -> Vec<Range<usize>> {
     let css = &text[sheet.clone()];
     let mut found = Vec::new();
     let mut at = 0;
-    while let Some(open) = css[at..].find('{').map(|open| at + open) {
+    while let Some(open) = block_start(&css[at..]).map(|open| at + open) {
         let head = &css[at..open];
         let end = open + 1 + block_end(&css[open + 1..]);
         // What stands before the selectors.
@@ -71,18 +66,6 @@ fn blocks_of_sheet(text: &str, sheet: Range<usize>) -> Vec<Range<usize>> {
         at = (end + 1).min(css.len());
     }
     found
-}
-
-/// The marks of a comment of HTML around the rules of a sheet in a CDATA section, which CSS passes over.
-fn marks_of_html(sheet: &str) -> impl Iterator<Item = Range<usize>> {
-    let inner = sheet.trim_start().strip_prefix("<![CDATA[");
-    let inner = inner.map(str::trim_start).filter(|inner| inner.starts_with("<!--"));
-    let marks = inner.map(|inner| {
-        let start = sheet.len() - inner.len();
-        let end = inner.rfind("-->").map(|end| start + end..start + end + 3);
-        [Some(start..start + 4), end]
-    });
-    marks.into_iter().flatten().flatten()
 }
 
 /// The comments of a block, outside of strings.
@@ -141,27 +124,14 @@ fn mend(text: &str, block: Range<usize>, edits: &mut Edits) {
             is_first = false;
             blank(text, height, edits);
         } else {
-            let line = text[piece.clone()].trim_start();
-            let start = piece.end - line.len();
-            // Where lines are too short for it nothing is told.
-            let is_told = is_rule(line) && !line.as_bytes()[..NESTED.len()].contains(&b'\n');
-            if is_told {
-                is_first = false;
-                blank(text, piece.start..start, edits);
-                edits.replace(start..start + NESTED.len(), NESTED.to_owned());
-                blank(text, start + NESTED.len()..piece.end, edits);
-            } else {
-                blank(text, piece, edits);
-            }
+            blank(text, piece, edits);
         }
     }
 }
 
-/// Whether this is a rule with something in it.
+/// Whether this is a rule.
 fn is_rule(piece: &str) -> bool {
-    let body = piece.split_once('{').and_then(|(_, body)| body.strip_suffix('}'));
-    let is_custom = piece.starts_with("--");
-    !is_custom && piece.len() > NESTED.len() && body.is_some_and(|body| body.contains(':'))
+    !piece.starts_with("--") && piece.contains('{') && piece.ends_with('}')
 }
 
 /// Writes the name of a declaration at `start` in small letters, which mean the same (CSS Syntax 3, section 1).
@@ -320,20 +290,19 @@ mod tests {
     }
 
     #[test]
-    fn rules_inside_others_leave_a_mark() {
+    fn rules_inside_others_go() {
         for rule in [
             "rect{fill:red}",
             "a:hover { fill:lime; x:y }",
             "&amp; > b{c:d}",
             "@media x{e:f}",
-            "é{c:d}",
+            "b{}",
         ] {
             assert_becomes(
                 &format!("<svg><style>.a{{ stroke:red; {rule} fill:red}}</style></svg>"),
-                "<svg><style>.a{ stroke:red; x--:1; fill:red}</style></svg>",
+                "<svg><style>.a{ stroke:red; fill:red}</style></svg>",
             );
         }
-        assert_becomes("<svg><style>.a{b{}}</style></svg>", "<svg><style>.a{ }</style></svg>");
     }
 
     #[test]
@@ -359,14 +328,6 @@ mod tests {
             "<svg style='fill:#00c800 '><style>a{x:1;fill:#0000 </style></svg>",
         );
         assert_becomes("<svg style='a:1;fill:rgb(0,0;b:1'/>", "<svg style='a:1; '/>");
-    }
-
-    #[test]
-    fn marks_of_comments_of_html_go_from_sheets() {
-        assert_becomes(
-            "<svg><style><![CDATA[ <!-- .a{fill:red} --> ]]></style><!-- b --></svg>",
-            "<svg><style><![CDATA[ .a{fill:red} ]]></style><!-- b --></svg>",
-        );
     }
 
     #[test]

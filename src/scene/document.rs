@@ -11,7 +11,8 @@ use roxmltree::{Document, Error, ParsingOptions};
 
 use super::declarations::mended;
 use super::error::Fault;
-use super::media::on_screen;
+use super::places::Places;
+use super::plain_styles::PlainStyles;
 use super::report::shorten;
 use super::selectors::rewritten;
 use super::substitutes::substituted;
@@ -197,10 +198,13 @@ fn from_utf16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> Result<Cow<'static
 #[derive(Debug)]
 pub(super) struct Source<'doc> {
     original: &'doc str,
-    /// The text to parse: the original, or one with [`XLINK`] put in and plain values where newer CSS stands.
+    /// The text to parse: the original, or one with [`XLINK`] put in, styles in their plain form and plain values where newer CSS
+    /// stands.
     text: Cow<'doc, str>,
-    /// Where something was put in, and how many bytes.
-    inserted: (usize, usize),
+    /// Where in the original its parts come from.
+    places: Places,
+    /// What of its style sheets has no effect, and where in the original that stands.
+    told: Vec<(usize, String)>,
 }
 
 /// Put into the root element of documents that use `xlink:` and forget to say what it means, as many do.
@@ -242,32 +246,27 @@ impl<'doc> Source<'doc> {
             }
         }
         entities::check(original)?;
-        let (text, inserted) = match survey.root_name_end {
-            Some(at) if original.contains(" xlink:") && !original.contains("xmlns:xlink") => {
-                let text = format!("{}{XLINK}{}", &original[..at], &original[at..]);
-                (Cow::Owned(text), (at, XLINK.len()))
-            }
-            _ => (Cow::Borrowed(original), (0, 0)),
-        };
-        let shown = changed(on_screen(Cow::Borrowed(&text)));
-        let text = shown.map_or(text, Cow::Owned);
+        let is_forgotten = || original.contains(" xlink:") && !original.contains("xmlns:xlink");
+        let inserted = survey.root_name_end.filter(|_| is_forgotten()).map(|at| (at, XLINK));
+        let PlainStyles { text, places, told } = PlainStyles::of(original, inserted);
         let plain = changed(rewritten(mended(substituted(&text))));
         let text = plain.map_or(text, Cow::Owned);
         Ok(Self {
             original,
             text,
-            inserted,
+            places,
+            told,
         })
     }
 
     /// The byte of the original document that byte `offset` of the parsed text stands for.
     pub(super) fn original_offset(&self, offset: usize) -> usize {
-        let (at, length) = self.inserted;
-        if offset <= at {
-            offset
-        } else {
-            offset - length.min(offset - at)
-        }
+        self.places.origin(offset).min(self.original.len())
+    }
+
+    /// What of its style sheets has no effect, and where in the original that stands.
+    pub(super) fn told(&self) -> &[(usize, String)] {
+        &self.told
     }
 
     /// The text that is parsed, which places of its elements are of.
@@ -289,14 +288,19 @@ impl<'doc> Source<'doc> {
     fn explain(&self, error: &Error) -> Fault {
         let lines = LineIndex::new(self.original);
         let place = error.pos();
+        let parsed = SourceLocation {
+            line: place.row,
+            column: place.col,
+        };
         let location = match error {
             Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => {
                 lines.locate(self.original.trim_end().len())
             }
-            _ => SourceLocation {
-                line: place.row,
-                column: place.col,
-            },
+            _ if self.places.are_same() => parsed,
+            _ => {
+                let at = LineIndex::new(&self.text).offset(parsed);
+                at.map_or(parsed, |at| lines.locate(self.original_offset(at)))
+            }
         };
         let before = self.original.get(..lines.offset(location).unwrap_or(0)).unwrap_or("");
         let is_first = before

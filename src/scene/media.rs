@@ -1,36 +1,4 @@
-//! Which rules of style sheets are for a picture on a screen (Media Queries 4). The reader of styles takes none inside of `@media`
-//! and all of a sheet with `media`, so blanks take the places of what does not hold, and of the braces around what does: every
-//! place in the document stays where it is.
-
-use std::borrow::Cow;
-use std::ops::Range;
-
-use super::edits::Edits;
-use super::substitutes::{Markup, block_end};
-
-/// Rules for media inside each other, at most: those further inside are not looked at.
-const MAX_DEPTH: usize = 10;
-
-/// The start of a rule that asks for a medium.
-const RULE: &str = "@media";
-
-/// The document in which rules for screens are plain ones, and sheets for other media empty.
-pub(super) fn on_screen(text: Cow<'_, str>) -> Cow<'_, str> {
-    if !text.contains("media") {
-        return text;
-    }
-    let markup = Markup::of(&text);
-    let mut edits = Edits::default();
-    for sheet in &markup.sheets {
-        let medium = markup.tag_of(sheet).and_then(|tag| attribute(&text[tag], "media"));
-        if medium.is_some_and(|medium| applies(medium) != Some(true)) {
-            edits.replace(sheet.clone(), emptied(&text[sheet.clone()]));
-        } else {
-            unwrap(&text, sheet.clone(), &mut edits);
-        }
-    }
-    edits.apply_to(text)
-}
+//! Which media a picture on a screen is (Media Queries 4).
 
 /// Whether a list of media holds a picture on a screen; `None` where that depends on a condition, such as the width of a window.
 pub(super) fn applies(list: &str) -> Option<bool> {
@@ -85,82 +53,6 @@ fn query_applies(query: &str) -> Option<bool> {
     holds.map(|holds| holds != is_not)
 }
 
-/// The value of an attribute of a tag.
-fn attribute<'t>(tag: &'t str, name: &str) -> Option<&'t str> {
-    tag.match_indices(name).find_map(|(at, _)| {
-        let starts = tag[..at].ends_with(|c: char| c.is_ascii_whitespace());
-        let value = tag[at + name.len()..].trim_start().strip_prefix('=')?.trim_start();
-        let quote = value.chars().next().filter(|c| starts && matches!(c, '"' | '\''))?;
-        value[1..].split_once(quote).map(|(value, _)| value)
-    })
-}
-
-/// A sheet's text with blanks in place of its rules.
-fn emptied(sheet: &str) -> String {
-    let inner = sheet.find("<![CDATA[").map_or(0, |at| at + 9);
-    let end = sheet.rfind("]]>").filter(|end| *end >= inner).unwrap_or(sheet.len());
-    // Other markup inside stays whole.
-    if sheet[inner..end].contains('<') {
-        return sheet.to_owned();
-    }
-    let blanks = blanks(&sheet[inner..end]);
-    format!("{}{blanks}{}", &sheet[..inner], &sheet[end..])
-}
-
-/// As many blanks, on as many lines.
-fn blanks(text: &str) -> String {
-    let bytes = text.bytes();
-    bytes.map(|byte| if byte == b'\n' { '\n' } else { ' ' }).collect()
-}
-
-/// Takes `@media … {` and its closing brace from around rules that hold.
-fn unwrap(text: &str, sheet: Range<usize>, edits: &mut Edits) {
-    let css = &text[sheet.clone()];
-    let mut at = 0;
-    let mut around: Vec<usize> = Vec::new();
-    while let Some(start) = next_rule(css, at) {
-        around.retain(|end| *end > start);
-        let rest = &css[start..];
-        at = start + RULE.len();
-        let Some(open) = rest.find(['{', ';']).filter(|open| rest[*open..].starts_with('{')) else {
-            continue;
-        };
-        let body = start + open + 1;
-        let end = body + block_end(&css[body..]);
-        if around.len() < MAX_DEPTH && applies(&rest[RULE.len()..open]) == Some(true) {
-            around.push(end);
-            for range in [start..body, end..(end + 1).min(css.len())] {
-                let range = sheet.start + range.start..sheet.start + range.end;
-                edits.replace(range.clone(), blanks(&text[range]));
-            }
-            at = body;
-        } else {
-            at = end;
-        }
-    }
-}
-
-/// Where the next `@media` begins from `from` on, outside of comments and strings.
-fn next_rule(css: &str, from: usize) -> Option<usize> {
-    let mut at = from;
-    loop {
-        let rest = css.get(at..)?;
-        at += rest.find(['@', '/', '"', '\''])?;
-        let rest = &css[at..];
-        if let Some(after) = rest.strip_prefix(RULE)
-            && !after.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '-')
-        {
-            return Some(at);
-        }
-        at += match rest.as_bytes() {
-            [b'/', b'*', ..] => 2 + rest[2..].find("*/")? + 2,
-            // A string ends with its line at the latest.
-            [quote @ (b'"' | b'\''), ..] => 2 + rest[1..].find([char::from(*quote), '\n'])?,
-            _ => 1,
-        };
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,42 +90,5 @@ mod tests {
         ] {
             assert_eq!(applies(list), None, "{list}");
         }
-    }
-
-    #[track_caller]
-    fn assert_becomes(text: &str, expected: &str) {
-        let plain = on_screen(Cow::Borrowed(text));
-        assert_eq!(plain.len(), text.len(), "every place stays: {plain}");
-        assert_eq!(
-            plain.matches('\n').count(),
-            text.matches('\n').count(),
-            "and every line"
-        );
-        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(words(&plain), words(expected), "{text}");
-    }
-
-    #[test]
-    fn rules_for_screens_are_plain_and_others_stay_apart() {
-        assert_becomes(
-            "<svg><style>a{x:1} @media screen,\nprint { b{x:2} @media all{c{x:3}} } d{x:4}</style></svg>",
-            "<svg><style>a{x:1} b{x:2} c{x:3} d{x:4}</style></svg>",
-        );
-        for stays in [
-            "<svg><style>@media print{@media screen{a{x:1}}} @media (width){b{x:2}}</style></svg>",
-            "<svg><style>/* @media screen{a{x:1}} */ a[b='@media all{']{x:1} @media-x all{} @media;{}</style></svg>",
-            "<svg><style media='screen'>a{x:1}</style><text>@media all{a{}}</text></svg>",
-        ] {
-            assert_becomes(stays, stays);
-        }
-        assert_becomes("<svg><style>@media all{a{x:1}", "<svg><style> a{x:1}");
-    }
-
-    #[test]
-    fn sheets_for_other_media_are_empty() {
-        assert_becomes(
-            "<svg><style type='text/css' media='print'>a{x:1}\n</style><style media = \"(width)\"><![CDATA[a{}]]></style></svg>",
-            "<svg><style type='text/css' media='print'> </style><style media = \"(width)\"><![CDATA[ ]]></style></svg>",
-        );
     }
 }

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::css::{block_end, block_start};
 use super::css_colors;
 use super::edits::Edits;
 
@@ -202,13 +203,6 @@ impl Markup {
         found
     }
 
-    /// The start tag of a style sheet, without its last bracket.
-    pub(super) fn tag_of(&self, sheet: &Range<usize>) -> Option<Range<usize>> {
-        let end = sheet.start.checked_sub(1)?;
-        let at = self.tags.binary_search_by_key(&end, |tag| tag.end).ok()?;
-        self.tags.get(at).cloned()
-    }
-
     /// Notes a tag; which scope it begins, if it does.
     fn tag(&mut self, text: &str, range: Range<usize>) -> Option<usize> {
         let tag = &text[range.clone()];
@@ -235,7 +229,8 @@ impl Markup {
         let mut properties = Properties::default();
         for sheet in &self.sheets {
             let mut rest = &text[sheet.clone()];
-            while let Some((selector, block)) = rest.split_once('{') {
+            while let Some(open) = block_start(rest) {
+                let (selector, block) = (&rest[..open], &rest[open + 1..]);
                 let selector = ["*/", "CDATA["]
                     .into_iter()
                     .fold(selector, |rest, mark| rest.rsplit(mark).next().unwrap_or(""));
@@ -278,20 +273,6 @@ fn tag_end(markup: &[u8]) -> Option<usize> {
 fn is_sheet(tag: &str) -> bool {
     let name = tag[1..].split([' ', '\t', '\r', '\n', '/']).next().unwrap_or("");
     (name == "style" || name.ends_with(":style")) && !tag.ends_with('/')
-}
-
-/// Where a block ends, whose opening brace is passed.
-pub(super) fn block_end(block: &str) -> usize {
-    let mut depth = 1;
-    let end = block.bytes().position(|byte| {
-        match byte {
-            b'{' => depth += 1,
-            b'}' => depth -= 1,
-            _ => {}
-        }
-        depth == 0
-    });
-    end.unwrap_or(block.len())
 }
 
 /// The custom properties of a style.

@@ -78,6 +78,7 @@ pub(super) fn read<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, te
 }
 
 fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &str) -> Result<DVec2, Fault> {
+    builder.tell_of_styles();
     let prepared = prepare::prepare(root, text, builder)?;
     references::check(root, &prepared.graph, builder)?;
     let letters = prepared.letters;

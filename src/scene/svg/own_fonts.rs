@@ -6,9 +6,9 @@ use roxmltree::Node;
 use usvg::fontdb::{Database, ID, Language, Source, Style, Weight};
 
 use super::listener::Listener;
+use crate::scene::css::block_end;
 use crate::scene::declarations;
 use crate::scene::report::quote;
-use crate::scene::substitutes::block_end;
 use crate::scene::textures::{embedded, is_data};
 
 /// Most bytes of all typefaces of a document, and most typefaces.

@@ -245,6 +245,9 @@ fn nested(
         return Err(Problem::NotSvg(root.tag_name().name().to_owned()).nowhere());
     }
     let mut listener = Outside { loading, location };
+    for (_, message) in source.told() {
+        listener.warn(root, message.clone());
+    }
     let prepared = prepare::prepare(root, source.text(), &mut listener)?;
     references::check(root, &prepared.graph, &mut listener)?;
     let fonts = prepared.letters;

@@ -371,12 +371,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
                 nonsense::hide_profiles(self.text, part.range(), &mut self.edits);
             }
             self.other_media(node);
-            for (at, message) in nonsense::rules_in_vain(self.text, node) {
-                match at {
-                    Some(at) => self.listener.warn_at(at, node, message),
-                    None => self.listener.warn(node, message),
-                }
-            }
             for (at, message) in nonsense::names_in_sheet(self.text, node) {
                 self.edits.insert(at, nonsense::UNREAD.to_owned());
                 self.listener.warn_at(at, node, message);

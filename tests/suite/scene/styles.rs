@@ -37,6 +37,7 @@ fn selectors_look_at_parts_of_attributes() {
         ("[class^='an i']", RED),
         ("[class$=icon]", RED),
         ("rect[class*=\"n i\"]", RED),
+        ("[class ^= 'an']", RED),
         ("svg > [id^=r][id$=r]", RED),
         ("[class^=icon]", BLUE),
         ("[class$='']", BLUE),
@@ -45,8 +46,65 @@ fn selectors_look_at_parts_of_attributes() {
         let (color, told) = styled(&format!(">{selector}{{fill:red}} rect{{fill:blue}}"));
         assert_eq!((color, told), (expected, Vec::new()), "{selector}");
     }
-    let (color, told) = styled(">[class ^= 'an'] { fill: red }");
-    assert!(color == BLUE && told.len() == 1 && told[0].contains("(^=)"), "{told:?}");
+    let (color, told) = styled(">[class^='an' i] { fill: red }");
+    assert!(color == BLUE && told.len() == 1 && told[0].contains("(i)"), "{told:?}");
+}
+
+#[test]
+fn sheets_are_read_as_css_and_xml_write_them() {
+    for sheet in [
+        ">rect{fill:lime}<!-- c --> rect{fill:red}",
+        ">rect{fill:lime}<?x y?> rect{fill:red}",
+        ">rect{stroke:none; <!-- off: fill:lime; --> fill:red}",
+        ">rect{fill:lime}<!-- a > b { --> rect{fill:red}",
+        ">rect{fill:red<![CDATA[}]]>",
+        ">rect{fill:r<![CDATA[ed}]]>",
+        "><![CDATA[rect{fill:]]>red}",
+        ">rect{font-family:\"a}b\";fill:red}",
+        ">rect{font-family:'a{b'}rect{fill:red}",
+        ">.q::after{content:\"}\"} rect{fill:red}",
+        ">rect{font-family:\"a\\\"b\";fill:red}",
+        ">rect{font-family:'it\\'s }';fill:red}",
+        ">rect{fill:red!IMPORTANT}rect.an{fill:lime}",
+        ">rect{fill:re\\64}",
+        ">rect{f\\69ll:red}",
+        ">.\\61n{fill:red}",
+        ">#\\72{fill:red}",
+        ">*|rect{fill:red}",
+        ">*|*{fill:red}",
+        ">@namespace s url(http://www.w3.org/2000/svg);s|rect{fill:red}",
+        ">&lt;!-- rect{fill:red} --&gt;",
+        " type=''>rect{fill:red}",
+        " type='TEXT/CSS'>rect{fill:red}",
+        " type='text/css; charset=utf-8'>rect{fill:red}",
+    ] {
+        let (color, told) = styled(sheet);
+        assert_eq!(color, RED, "{sheet}: {told:?}");
+        assert!(told.iter().all(|line| line.contains("ypeface")), "{sheet}: {told:?}");
+    }
+}
+
+#[test]
+fn rules_without_effect_are_told_and_leave_those_behind() {
+    for sheet in [
+        ">rect.b,,rect{fill:red}",
+        ">rect,{fill:red}",
+        ">rect,.b>{fill:red}",
+        ">rect,#{fill:red}",
+        ">rect:foo{fill:red}",
+        ">rect,rect:foo{fill:red}",
+        ">rect,rect[x{fill:red}",
+        ">rect,a::nonsense{fill:red}",
+        ">@import 'a;b.css'; rect{fill:blue}",
+        ">@import url(a.css;x); rect{fill:blue}",
+        ">@layer a,b; rect{fill:blue}",
+        " type='text/less'>rect{fill:red}",
+    ] {
+        let (color, told) = styled(sheet);
+        assert_eq!((color, told.len()), (BLUE, 1), "{sheet}: {told:?}");
+    }
+    let told = styled(">rect{x:y}<!-- \n -->\n  rect,a:foo{fill:red}").1;
+    assert!(told[0].starts_with("3:3: \"rect,a:foo\" is no selector"), "{told:?}");
 }
 
 #[test]

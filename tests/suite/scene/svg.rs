@@ -29,7 +29,7 @@ fn filled(body: &str) -> (f64, Rgba) {
 }
 
 /// The smallest box around all triangles and polygons: left, top, right, bottom.
-fn bounds(scene: &Scene) -> [f64; 4] {
+pub(super) fn bounds(scene: &Scene) -> [f64; 4] {
     let mut low = DVec2::INFINITY;
     let mut high = DVec2::NEG_INFINITY;
     for kind in kinds(scene) {

@@ -61,7 +61,7 @@ const INHERITED: [&str; 46] = [
 ];
 
 /// Whether an element has a property of the one around it.
-fn is_inherited(property: &str) -> bool {
+pub(in crate::scene) fn is_inherited(property: &str) -> bool {
     INHERITED.contains(&property)
 }
 

@@ -12,7 +12,7 @@ mod rules;
 mod selectors;
 mod tokens;
 
-pub(super) use declarations::{plain_word, style};
+pub(super) use declarations::{is_inherited, plain_word, style};
 pub(super) use plain::{Place, Plain};
 pub(super) use rules::sheet;
 pub(super) use selectors::MOST_COMPARISONS;

@@ -8,6 +8,7 @@ use roxmltree::{Attribute, Node};
 use simplecss::{Declaration, DeclarationTokenizer, StyleSheet};
 
 use super::{own_triangles, sheets, values};
+use crate::scene::css;
 use crate::scene::edits::{Edits, escaped};
 use crate::scene::report::quote;
 
@@ -27,7 +28,12 @@ pub(super) fn hide(text: &str, node: Node<'_, '_>, is_from_styles: impl Fn(&str)
         if is_written {
             continue;
         }
-        if is_nonsense(name, value.trim()) {
+        let word = css::plain_word(name, value.trim()).filter(|_| values::is_known(name) || css::is_inherited(name));
+        if let Some(word) = word {
+            if word != value {
+                edits.replace(attribute.range(), format!("{name}=\"{word}\""));
+            }
+        } else if is_nonsense(name, value.trim()) {
             if values::drawn_up_to(name, value).is_some() {
                 let drawn = values::before_too_large(name, value);
                 edits.replace(attribute.range_value(), escaped(drawn));

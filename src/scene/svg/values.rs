@@ -3,7 +3,7 @@
 use glam::{DAffine2, DMat2, DVec2};
 use svgtypes::{Length, NumberListParser, Paint, PathParser, PointsParser, TransformListParser, TransformListToken};
 
-use crate::scene::numbers;
+use crate::scene::{css, numbers};
 
 /// What kind of value belongs to a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,7 +181,8 @@ pub(super) fn is_too_large(name: &str, value: &str) -> bool {
 
 /// Whether the value is a word that has a meaning anywhere.
 pub(super) fn is_keyword(value: &str) -> bool {
-    KEYWORDS.contains(&value.trim())
+    let value = value.trim();
+    KEYWORDS.contains(&value) || css::plain_word("", value).is_some()
 }
 
 /// Whether the value has a meaning; that of an unknown name is not asked after.

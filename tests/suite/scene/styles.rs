@@ -108,6 +108,21 @@ fn rules_without_effect_are_told_and_leave_those_behind() {
 }
 
 #[test]
+fn words_that_every_property_knows_are_known_in_capitals_too() {
+    for look in [
+        "style='fill:unset'",
+        "style='fill:UNSET'",
+        "style='fill:Inherit'",
+        "style='fill:revert'",
+        "fill='unset'",
+        "fill='INHERIT'",
+    ] {
+        let scene = svg_scene(&format!("<g fill='red'><rect width='9' height='9' {look}/></g>"));
+        assert_eq!((color(&scene), lines(&scene)), (RED, Vec::new()), "{look}");
+    }
+}
+
+#[test]
 fn the_root_is_selected_by_its_name_or_place() {
     let scene = svg_scene("<style>:root{fill:red} :root > g{stroke:none}</style><g><rect width='9' height='9'/></g>");
     assert_eq!((color(&scene), lines(&scene)), (RED, Vec::new()));

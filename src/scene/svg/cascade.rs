@@ -1,5 +1,5 @@
 //! What styles say of an element that usvg would not take from them, written where it takes it from: important declarations,
-//! lengths of shapes, transforms as CSS writes them, filters that are not there.
+//! lengths of shapes, transforms as CSS writes them, white space that is kept, filters that are not there.
 //!
 //! Of important declarations the last counts, as of all others (CSS Cascading 4, section 6.1); to usvg it is the first. So the
 //! words `!important` go, and what wins by them stands at the end of the element's own style, which wins over all.
@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::cell::Cell;
 use std::ops::Range;
 
-use roxmltree::Node;
+use roxmltree::{Attribute, NS_XML_URI, Node};
 use simplecss::{Declaration, DeclarationTokenizer};
 
 use super::elements::Elements;
@@ -60,6 +60,8 @@ pub(super) struct Styled<'doc> {
     geometry: Vec<(&'static str, Cow<'doc, str>)>,
     /// The transform, as attributes have it.
     pub(super) transform: Option<String>,
+    /// Whether white space is kept, as `xml:space` has it.
+    space: Option<&'static str>,
     /// What is to be said of references that lead in circles.
     pub(super) circles: Vec<String>,
     /// What of the rules it has no effect.
@@ -96,7 +98,10 @@ impl<'doc> Cascade<'doc> {
         elements: &Elements<'doc>,
         circular: &[Circular<'doc>],
     ) -> Styled<'doc> {
-        let mut styled = Styled::default();
+        let mut styled = Styled {
+            space: node.attribute("white-space").and_then(values::space),
+            ..Styled::default()
+        };
         if self.rules.is_empty() && !node.has_attribute("style") && circular.is_empty() {
             return styled;
         }
@@ -173,6 +178,9 @@ impl<'doc> Styled<'doc> {
                 return;
             }
         }
+        if name == "white-space" {
+            self.space = values::space(value);
+        }
         if name == "filter" && is_missing(value, elements) {
             self.style.push((name, "none".to_owned()));
             return;
@@ -232,6 +240,13 @@ impl<'doc> Styled<'doc> {
             match there {
                 Some(there) => edits.replace(there.range_value(), escaped(value)),
                 None => edits.insert(name_end, format!(" {name}=\"{}\"", escaped(value))),
+            }
+        }
+        if let Some(space) = self.space {
+            let is_own = |own: &Attribute<'_, '_>| own.name() == "space" && own.namespace() == Some(NS_XML_URI);
+            match node.attributes().find(is_own) {
+                Some(own) => edits.replace(own.range_value(), space.to_owned()),
+                None => edits.insert(name_end, format!(" xml:space=\"{space}\"")),
             }
         }
         let declarations = self.style.iter();
@@ -308,7 +323,7 @@ fn lengths_of(node: Node<'_, '_>) -> &'static [&'static str] {
 fn is_of_interest(declaration: &Declaration<'_>) -> bool {
     let Declaration { name, important, .. } = *declaration;
     let is_length = || GEOMETRY.iter().any(|(_, lengths)| lengths.contains(&name));
-    important || matches!(name, "transform" | "filter") || is_length()
+    important || matches!(name, "transform" | "filter" | "white-space") || is_length()
 }
 
 /// Whether a declaration of a rule has a value without meaning; what [`nonsense`] hides is told where it stands.

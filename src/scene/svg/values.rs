@@ -82,7 +82,7 @@ const WITHOUT_EFFECT: [(&str, &[&str]); 22] = [
     ("transform-box", &["view-box"]),
     ("translate", &["none", "0", "0px"]),
     ("vector-effect", &["none", "non-scaling-stroke"]),
-    ("white-space", &["normal", "nowrap"]),
+    ("white-space", &["normal", "nowrap", "pre", "pre-wrap", "break-spaces"]),
 ];
 
 fn kind(name: &str) -> Option<Kind> {
@@ -183,6 +183,15 @@ pub(super) fn is_too_large(name: &str, value: &str) -> bool {
 pub(super) fn is_keyword(value: &str) -> bool {
     let value = value.trim();
     KEYWORDS.contains(&value) || css::plain_word("", value).is_some()
+}
+
+/// What `xml:space` says where a text's `white-space` is this.
+pub(super) fn space(white_space: &str) -> Option<&'static str> {
+    match white_space.trim() {
+        "pre" | "pre-wrap" | "break-spaces" => Some("preserve"),
+        "normal" | "nowrap" | "pre-line" | "initial" => Some("default"),
+        _ => None,
+    }
 }
 
 /// Whether the value has a meaning; that of an unknown name is not asked after.

@@ -3,6 +3,7 @@
 use rasterscope::color::Rgba;
 use rasterscope::scene::{DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
+use super::svg::bounds;
 use crate::support::documents::{area, kinds, lines, svg, svg_scene, try_read};
 
 const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
@@ -175,7 +176,7 @@ fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
         "text-transform:uppercase",
         "transform-box:fill-box",
         "translate:5px",
-        "white-space:pre",
+        "white-space:pre-line",
     ] {
         let name = style.split(':').next().unwrap();
         let told = lines(&svg_scene(&format!("<path d='M0 0H9V9' style='{style}'/>")));
@@ -191,6 +192,7 @@ fn properties_that_are_not_drawn_are_told_unless_they_change_nothing() {
     for style in [
         "clip:auto;d:none;rotate:none;scale:1",
         "transform-box:view-box;white-space:normal",
+        "white-space:pre-wrap",
         "backdrop-filter:none;color-interpolation:sRGB;text-shadow:none",
     ] {
         let told = lines(&svg_scene(&format!("<path d='M0 0H9V9' style='{style}'/>")));
@@ -289,6 +291,28 @@ fn what_clips_nothing_is_told() {
             .any(|line| line.starts_with("2:1: ") && expected.is_some_and(|told| line.contains(told)));
         assert_eq!(is_told, expected.is_some(), "{told:?}");
     }
+}
+
+#[test]
+fn white_space_is_kept_where_styles_say_so() {
+    let width = |around: &str, look: &str| {
+        let scene = svg_scene(&format!("<g {around}><text y='30' {look}>a    b</text></g>"));
+        assert_eq!(lines(&scene), [""; 0], "{around} {look}");
+        bounds(&scene)[2]
+    };
+    let [narrow, wide] = ["", "xml:space='preserve'"].map(|look| width("", look));
+    assert!(narrow < wide, "{narrow} {wide}");
+    for (around, look, expected) in [
+        ("", "style='white-space: pre'", wide),
+        ("", "white-space='pre-wrap'", wide),
+        ("style='white-space:break-spaces'", "", wide),
+        ("style='white-space:pre'", "style='white-space:normal'", narrow),
+        ("", "style='white-space:nowrap' xml:space='preserve'", narrow),
+    ] {
+        assert!((width(around, look) - expected).abs() < 1e-9, "{around} {look}");
+    }
+    let scene = svg_scene("<style>.svglite text {white-space: pre;}</style><g class='svglite'><text>a    b</text></g>");
+    assert!((bounds(&scene)[2] - wide).abs() < 1e-9, "by a rule");
 }
 
 #[test]

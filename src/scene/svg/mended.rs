@@ -52,6 +52,36 @@ pub(super) fn mend_filter(node: Node<'_, '_>, elements: &Elements<'_>, edits: &m
     }
 }
 
+/// Shortest side of a pattern's tile: usvg does not survive those that 32-bit floats do not tell from nothing beside what they fill.
+const FINEST: f64 = 1e-6;
+
+/// Has a pattern fill nothing whose tiles are too small to be told apart; what is to be said of it.
+pub(super) fn hide_fine_pattern(node: Node<'_, '_>, edits: &mut Edits) -> Option<String> {
+    let sides = node
+        .attributes()
+        .filter(|attribute| matches!(attribute.name(), "width" | "height"));
+    let fine = sides.filter(|_| node.tag_name().name() == "pattern").find(|side| {
+        let length = side.value().trim().parse::<svgtypes::Length>();
+        length.is_ok_and(|length| {
+            let is_percent = length.unit == svgtypes::LengthUnit::Percent;
+            let number = if is_percent {
+                length.number / 100.0
+            } else {
+                length.number
+            };
+            number > 0.0 && number < FINEST
+        })
+    })?;
+    let (name, value) = (fine.name(), quote(fine.value()));
+    edits.replace(fine.range(), format!("{name}=\"0\""));
+    let id = node
+        .attribute("id")
+        .map_or(String::new(), |id| format!(" \"{}\"", quote(id)));
+    Some(format!(
+        "what the pattern{id} fills is not drawn: its {name} \"{value}\" is under {FINEST}; make its tiles larger"
+    ))
+}
+
 /// Whether an element is all of a mask and made white by its filter, which then has the effect that it shall have.
 pub(super) fn is_whitened(node: Node<'_, '_>, elements: &Elements<'_>) -> bool {
     let Some(filter) = node.attribute("filter") else {

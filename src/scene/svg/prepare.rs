@@ -259,6 +259,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         styled.write(self.text, node, self.name_end(node), &mut self.edits);
         mended::trim_numbers(self.text, node, &styled, &mut self.edits);
         mended::mend_filter(node, &self.elements, &mut self.edits);
+        if let Some(message) = mended::hide_fine_pattern(node, &mut self.edits) {
+            self.listener.warn(node, message);
+        }
         if heard {
             self.tell(node, to_root, viewport);
         }

@@ -124,6 +124,22 @@ fn words_that_every_property_knows_are_known_in_capitals_too() {
 }
 
 #[test]
+fn a_pattern_too_fine_for_floats_costs_itself_alone() {
+    for side in ["1e-9", "1e-30", "1e-9%"] {
+        let scene = svg_scene(&format!(
+            "<rect width='9' height='9' fill='red'/>\n<pattern id='p' width='{side}' height='{side}'>\
+             <rect width='1' height='1'/></pattern><rect y='30' width='50' height='20' fill='url(#p)'/>"
+        ));
+        let told = lines(&scene);
+        assert!((color(&scene), kinds(&scene).len()) == (RED, 1), "{side}: {told:?}");
+        assert!(
+            told.len() == 1 && told[0].starts_with("2:1: what the pattern \"p\""),
+            "{told:?}"
+        );
+    }
+}
+
+#[test]
 fn the_root_is_selected_by_its_name_or_place() {
     let scene = svg_scene("<style>:root{fill:red} :root > g{stroke:none}</style><g><rect width='9' height='9'/></g>");
     assert_eq!((color(&scene), lines(&scene)), (RED, Vec::new()));

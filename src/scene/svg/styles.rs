@@ -124,9 +124,11 @@ pub(super) fn cost(style: &str) -> u64 {
 
 /// What is wrong with styles that take too long to read.
 pub(super) fn too_long() -> Problem {
-    let what = "bytes to pass over while styles are read, where each value counts all before it";
-    let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
-    Problem::TooMany { what, limit }
+    Problem::TooMuch {
+        what: "steps of reading styles",
+        limit: usize::try_from(MAX_PASSED).unwrap_or(usize::MAX),
+        cure: "they grow with the square of a style's length: give long styles fewer declarations",
+    }
 }
 
 /// Refuses styles that take too long to read: at the end of every value simplecss counts lines from the beginning of its

@@ -125,7 +125,7 @@ impl Reading<'_> {
         };
         let is_closed = text[sign.len()..].ends_with(close);
         if token.place.end == end && !is_closed && text.contains('}') {
-            self.swallows(token.place.start, &sign.to_owned());
+            self.swallows(token.place.start, sign);
         }
     }
 

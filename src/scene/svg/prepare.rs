@@ -259,9 +259,6 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         styled.write(self.text, node, self.name_end(node), &mut self.edits);
         mended::trim_numbers(self.text, node, &styled, &mut self.edits);
         mended::mend_filter(node, &self.elements, &mut self.edits);
-        if let Some(message) = mended::hide_fine_pattern(node, &mut self.edits) {
-            self.listener.warn(node, message);
-        }
         if heard {
             self.tell(node, to_root, viewport);
         }
@@ -363,6 +360,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
 
     /// Takes their names from values that usvg would make something else of.
     fn hide_nonsense(&mut self, node: Node<'doc, 'doc>, styled: &Styled<'doc>) {
+        if let Some(message) = mended::hide_fine_pattern(node, &mut self.edits) {
+            self.listener.warn(node, message);
+        }
         nonsense::hide(self.text, node, |name| styled.has_length(name), &mut self.edits);
         if node.tag_name().name() == "style" {
             cascade::unmark_sheet(self.text, node, &mut self.edits);

@@ -222,7 +222,7 @@ fn what_a_sheet_says_in_vain_is_told_where_it_stands() {
                  .n { rect { fill: red }\n &amp; g { x: y } }</style><rect width='9' height='9'/>";
     let told = lines(&svg_scene(sheet));
     let places: Vec<&str> = told.iter().map(|line| &line[..4]).collect();
-    assert_eq!(places, ["3:1:", "2:9:", "6:6:", "5:2:"], "{told:?}");
+    assert_eq!(places, ["2:9:", "3:1:", "6:6:", "5:2:"], "{told:?}");
     assert!(told[2].contains("the rules inside \".n\" have no effect"), "{told:?}");
 }
 

@@ -12,8 +12,9 @@
 //!
 //! Medians, since a plateau that rings or has grain is still where most of its pixels are. Between two pixels the edge is a
 //! straight line, so that one from a pixel to the next is 0.8 pixels wide. Of several rises the first counts, from where the
-//! values were last below a tenth. The names are those of pulses (IEEE Std 181: transition duration,
-//! overshoot, undershoot), the width is the 10 to 90 % rise distance of cameras (beside ISO 12233).
+//! values were last below a tenth. Where they rest on the way, as on a stair, there are two edges, which have no width together.
+//! The names are those of pulses (IEEE Std 181: transition duration, overshoot, undershoot), the width is the 10 to 90 % rise
+//! distance of cameras (beside ISO 12233).
 
 use super::line::{Line, LinePoint};
 use super::luma::luma;
@@ -26,6 +27,13 @@ const REACHED: [f64; 2] = [0.1, 0.9];
 const ANOTHER: f64 = 0.25;
 /// Plateaus that are nearer to each other, in levels of 255, are no edge.
 const LEAST_STEP: f64 = 0.5;
+/// Values on the way that differ by no more are alike: in levels of 255, and in parts of the step where that is more.
+const ALIKE: [f64; 2] = [2.0, 0.04];
+/// As many pixels that are alike, one after another, may be a plateau on the way.
+const LEAST_REST: usize = 3;
+/// How far the values come beside such a plateau, on both sides within half its length: so steep no ramp is that is as flat as the
+/// plateau, however few levels it has. In levels of 255, and in parts of the step where that is more.
+const APART: [f64; 2] = [4.0, 0.1];
 
 /// How often these parts of the way between two plateaus come from a quarter of it or less to three quarters or more, and back.
 fn swings(parts: &[f64]) -> usize {
@@ -36,6 +44,25 @@ fn swings(parts: &[f64]) -> usize {
     });
     let sides: Vec<bool> = sides.collect();
     sides.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+/// Whether values on their way from one plateau to another, all parts of a step of so many levels, rest between two edges: pixels
+/// that are alike, with a steep rise before and behind them.
+fn rests(way: &[f64], step: f64) -> bool {
+    let part = |[levels, part]: [f64; 2]| (levels / step.abs()).max(part);
+    let (alike, apart) = (part(ALIKE), part(APART));
+    (1..way.len()).any(|start| {
+        let [mut low, mut high] = [way[start]; 2];
+        let rest = way[start..].iter().take_while(|value| {
+            (low, high) = (low.min(**value), high.max(**value));
+            high - low <= alike
+        });
+        let length = rest.count();
+        let (last, reach) = (start + length - 1, length.div_ceil(2));
+        let before = way[start] - way[start.saturating_sub(reach)];
+        let behind = way[(last + reach).min(way.len() - 1)] - way[last];
+        length >= LEAST_REST && before.min(behind) >= apart
+    })
 }
 
 /// What of a colour is plotted and measured, as it looks on white paper, in levels of 0 to 255.
@@ -100,6 +127,8 @@ pub struct Edge {
     pub undershoot: f64,
     /// How often the line goes from about one plateau to about the other, there and back.
     pub swings: usize,
+    /// Whether there is a third plateau on the way from one to the other, as between two steps of a stair.
+    pub rests: bool,
 }
 
 impl Edge {
@@ -108,10 +137,10 @@ impl Edge {
         self.rise[1] - self.rise[0]
     }
 
-    /// Whether it seems to be the only one: the line goes from one plateau to the other once, and no value is farther beyond both
-    /// than filters ring. Else width, overshoot and undershoot are those of no edge.
+    /// Whether it seems to be the only one: the line goes from one plateau to the other once and without a rest, and no value is
+    /// farther beyond both than filters ring. Else width, overshoot and undershoot are those of no edge.
     pub fn is_alone(&self) -> bool {
-        self.swings <= 1 && self.overshoot.max(self.undershoot) < ANOTHER
+        self.swings <= 1 && !self.rests && self.overshoot.max(self.undershoot) < ANOTHER
     }
 }
 
@@ -170,26 +199,31 @@ impl Profile {
         let least = -parts.iter().copied().fold(0.0, f64::min);
         // By lightness, so that a line has the same numbers backwards.
         let [overshoot, undershoot] = if step > 0.0 { [most, least] } else { [least, most] }.map(beyond);
+        let [start, end] = Self::way(&parts)?;
         Some(Edge {
             plateaus,
-            rise: self.rise(&parts)?,
+            rise: [
+                self.crossing(&parts, start, REACHED[0]),
+                self.crossing(&parts, end - 1, REACHED[1]),
+            ],
             overshoot,
             undershoot,
             swings: swings(&parts),
+            rests: rests(&parts[start..=end], step),
         })
     }
 
-    /// Where the values, as parts of the way, leave a tenth for the first time without coming back before nine tenths, and
-    /// where they reach these. There is such a place, since at least half of the first quarter is not above zero and half of
+    /// The pixel where the values, as parts of the way, are a tenth or less for the last time before nine tenths, and the first
+    /// one where they reach these. There are such pixels, since at least half of the first quarter is not above zero and half of
     /// the last not below one.
-    fn rise(&self, parts: &[f64]) -> Option<[f64; 2]> {
+    fn way(parts: &[f64]) -> Option<[usize; 2]> {
         let [low, high] = REACHED;
         let mut before = None;
         for (i, part) in parts.iter().enumerate() {
             if *part <= low {
                 before = Some(i);
             } else if let Some(before) = before.filter(|_| *part >= high) {
-                return Some([self.crossing(parts, before, low), self.crossing(parts, i - 1, high)]);
+                return Some([before, i]);
             }
         }
         None
@@ -295,6 +329,48 @@ mod tests {
         // Rises from 80, which is below a tenth of the way, through 150 to 210.
         is(found.rise[0], 4.0 + 30.0 / 70.0, "110");
         is(found.rise[1], 5.0 + 40.0 / 60.0, "190");
+    }
+
+    #[test]
+    fn stairs_are_more_than_one_edge() {
+        let stairs =
+            |steps: &[(u8, usize)]| -> Vec<u8> { steps.iter().flat_map(|(gray, count)| vec![*gray; *count]).collect() };
+        // Two sharp edges, and with grain on what is between them.
+        for steps in [
+            &[(29, 9), (100, 25), (255, 11)][..],
+            &[(255, 9), (100, 25), (29, 11)],
+            &[(0, 8), (30, 1), (100, 6), (101, 6), (99, 6), (170, 1), (200, 8)],
+            &[(0, 8), (120, 3), (200, 8)],
+            &[(10, 8), (15, 8), (20, 8)],
+        ] {
+            assert!(!edge(&stairs(steps)).is_alone(), "{steps:?}");
+        }
+        // One edge that the samples of a pixel make: no pixels on the way are plateaus.
+        for steps in [
+            &[(0, 8), (200, 8)][..],
+            &[(0, 8), (100, 1), (200, 8)],
+            &[(0, 8), (100, 2), (200, 8)],
+            &[(0, 8), (20, 1), (60, 1), (100, 1), (140, 1), (180, 1), (200, 8)],
+        ] {
+            assert!(edge(&stairs(steps)).is_alone(), "{steps:?}");
+        }
+    }
+
+    #[test]
+    fn wide_ramps_of_few_levels_are_one_edge() {
+        for (levels, pixels_of_each) in [(3_u8, 40), (4, 20), (8, 50), (20, 3), (60, 7), (200, 2)] {
+            let ramp = (0..=levels).flat_map(|level| vec![level; pixels_of_each]);
+            let plateau = vec![0; 60];
+            let grays: Vec<u8> = plateau.into_iter().chain(ramp).chain(vec![levels; 60]).collect();
+            assert!(
+                edge(&grays).is_alone(),
+                "{levels} levels, {pixels_of_each} pixels of each"
+            );
+        }
+        // A soft edge: flat at its ends, steepest in its middle.
+        let soft = (0..=120_u32).map(|x| 200 * x * x * (360 - 2 * x) / 120_u32.pow(3));
+        let grays: Vec<u8> = soft.map(|value| u8::try_from(value).expect("200 at most")).collect();
+        assert!(edge(&grays).is_alone(), "a soft edge");
     }
 
     #[test]

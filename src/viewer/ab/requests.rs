@@ -10,8 +10,8 @@ use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::{Settings, Toggle, picture};
 use crate::viewer::view::panes::Moved;
 
-/// How what is said of a B of A's settings begins.
-const KEPT: &str = "B keeps these settings";
+/// How what is said of a B of A's settings begins. Whoever does one of the things that it names has read it.
+pub(in crate::viewer) const KEPT: &str = "B keeps these settings";
 
 /// Said where B is needed and a copy of A would be no answer.
 const NOTHING_TO_COMPARE: &str =

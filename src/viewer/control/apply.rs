@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use crate::viewer::ab::requests::KEPT;
 use crate::viewer::chrome::Dialog;
 use crate::viewer::chrome::{Chrome, ending};
 use crate::viewer::command::parts::{
@@ -56,6 +57,7 @@ impl Viewer {
                 self.drawings().follow_settings();
             }
             Command::Set(change) => {
+                self.chrome.messages.retract(KEPT);
                 if let Some(remark) = change.apply(&mut self.settings) {
                     self.chrome.messages.error(remark);
                 }

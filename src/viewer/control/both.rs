@@ -131,19 +131,29 @@ impl<'a> Both<'a> {
             Arrangement::SideBySide => vec![tag(front, left), tag(back, left.midpoint(right))],
             Arrangement::Difference => {
                 let order = if swapped { "A \u{2212} B" } else { "B \u{2212} A" };
-                let what = format!("{order}, {}", self.ab.difference_style().measure.name());
-                let what = if self.refining().is_any() {
-                    format!("{what}, refining")
-                } else {
-                    what
-                };
-                vec![tag(what, left)]
+                vec![tag(format!("{order}, {}", self.difference_words()), left)]
             }
             Arrangement::Flip => {
                 let seen = if self.ab.shows_b() == swapped { front } else { back };
                 vec![tag(seen, left)]
             }
         }
+    }
+
+    /// Which difference is shown, and what the ends of its colours stand for: without that nobody knows a faint one from one
+    /// that was made brighter.
+    fn difference_words(&self) -> String {
+        let style = self.ab.difference_style();
+        let gain = self.ab.difference_gain();
+        let marks = gain.map(|gain| style.measure.marks(gain, style.gain == Gain::Normalize));
+        let ends = marks.as_deref().and_then(|marks| marks.first().zip(marks.last()));
+        let ends = ends.map(|(first, last)| {
+            // The last one says it for both.
+            let first = first.split(' ').next().unwrap_or_default();
+            format!(": {first} \u{2026} {last}")
+        });
+        let refining = if self.refining().is_any() { ", refining" } else { "" };
+        format!("{}{}{refining}", style.measure.name(), ends.unwrap_or_default())
     }
 
     /// What the current camera looks at; `None` before the scene was read.

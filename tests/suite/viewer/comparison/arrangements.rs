@@ -57,6 +57,21 @@ fn comparison_swaps_settings_and_frames() {
 }
 
 #[test]
+fn what_is_said_of_b_goes_with_the_next_step() {
+    for step in ["=", "r", "w", "d", "Shift+D"] {
+        let mut session = Session::open(&[TRIANGLES], WINDOW);
+        let says = |session: &Session| {
+            let mut messages = session.viewer.chrome().messages().iter();
+            messages.any(|message| message.text.starts_with("B keeps these settings"))
+        };
+        session.keys(&["r"]);
+        assert!(says(&session), "what the first press did");
+        session.keys(&[step]);
+        assert!(!says(&session), "{step} is what it told of");
+    }
+}
+
+#[test]
 fn comparison_keeps_view_and_scene_together() {
     let mut session = sixteen_against_one(WINDOW);
     session.keys(&["w"]);
@@ -151,6 +166,11 @@ fn comparison_difference_is_the_pairs_picture() {
     };
     let mut style = DifferenceStyle::default();
     shows(&session, style, "absolute");
+    let tag = |session: &Session| {
+        let tags = session.viewer.both().tags([0.0, 400.0], None);
+        tags.first().map_or(String::new(), |tag| tag.text.clone())
+    };
+    assert_eq!(tag(&session), "B \u{2212} A, absolute: 0 \u{2026} 255 levels");
     for measure in Measure::ALL {
         style.measure = measure;
         session.run(Command::Ab(AbCommand::SetMeasure(measure)));
@@ -160,9 +180,19 @@ fn comparison_difference_is_the_pairs_picture() {
     session.run(Command::Ab(AbCommand::SetGain(4.0)));
     session.run(Command::Ab(AbCommand::StepGain(1)));
     shows(&session, style, "a gain of 8");
+    assert!(
+        tag(&session).contains(" levels\u{b2} and more"),
+        "the level of the last colour: {}",
+        tag(&session)
+    );
     style.gain = Gain::Normalize;
     session.keys(&["Shift+D"]);
     shows(&session, style, "normalised");
+    assert!(
+        !tag(&session).contains("more"),
+        "no more than the largest: {}",
+        tag(&session)
+    );
     session.run(Command::View(ViewCommand::ZoomAt { at: None, factor: 1.4 }));
     shows(&session, style, "normalised anew for another view");
     session.keys(&["r"]);

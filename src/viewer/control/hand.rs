@@ -110,6 +110,7 @@ impl Hand<'_> {
         let from = self.pointer.at.replace(to);
         if from != Some(to) {
             (self.pointer.wheels, self.pointer.pinned_through_inset) = (None, None);
+            self.pointer.pins_before = self.inspector.magnifier.pins;
             self.inspector.magnifier.let_go();
         }
         if self.profiling.drag.is_some() {
@@ -159,6 +160,7 @@ impl Hand<'_> {
             WheelTarget::Picture
         };
         let target = *self.pointer.wheels.get_or_insert(over);
+        self.pointer.pins_before = self.inspector.magnifier.pins;
         if target == WheelTarget::Inset
             && let Some(placed) = self.inspector.inset
         {

@@ -10,7 +10,9 @@ use crate::viewer::inspector::{PixelLabel, PlacedInset};
 impl Pointing<'_> {
     /// The pixel that the status line tells about: under the pointer, else pinned.
     pub fn status(&self) -> Option<Status> {
-        self.status_of(self.hovered().or(self.pinned())?)
+        let pin_is_newer = self.pointer.pins_before != self.inspector.magnifier.pins;
+        let newer = self.pinned().filter(|_| pin_is_newer);
+        self.status_of(newer.or(self.hovered()).or(self.pinned())?)
     }
 
     /// A frame pixel in numbers; `None` before the scene was read.

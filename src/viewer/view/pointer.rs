@@ -34,6 +34,9 @@ pub(in crate::viewer) struct Pointer {
     /// The pin that was set through the inset, which then went elsewhere, while the pointer has rested: the same click unpins
     /// it.
     pub(in crate::viewer) pinned_through_inset: Option<u64>,
+    /// How many pins there had been when it last moved: one that came later, such as by arrow keys, is what is meant while it
+    /// rests.
+    pub(in crate::viewer) pins_before: u64,
 }
 
 /// The window pixel that contains a position.

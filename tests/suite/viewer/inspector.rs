@@ -42,6 +42,28 @@ fn inspector_pin_and_nudge() {
 }
 
 #[test]
+fn status_tells_of_a_pin_that_arrows_moved_until_the_pointer_moves() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    let told = |session: &Session| session.viewer.pixels().status().map(|status| status.pixel);
+    let to = |x, y| Command::Pointer(PointerCommand::Moved { at: dvec2(x, y) });
+    session.run(to(100.2, 50.9));
+    session.keys(&["Enter"]);
+    assert_eq!(told(&session), Some([100, 50]), "pinned under the pointer");
+    session.keys(&["Right", "Right", "Right"]);
+    assert_eq!(
+        told(&session),
+        Some([103, 50]),
+        "the pin, not what the pointer rests on"
+    );
+    session.run(to(100.2, 51.9));
+    assert_eq!(told(&session), Some([100, 51]), "the pointer moved");
+    session.run(Command::Inspector(InspectorCommand::Pin([7, 9])));
+    assert_eq!(told(&session), Some([7, 9]), "pinned by a command");
+    session.run(Command::Inspector(InspectorCommand::Unpin));
+    assert_eq!(told(&session), Some([100, 51]), "nothing is pinned");
+}
+
+#[test]
 fn inspector_pin_stays_at_its_place_in_the_scene() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.run(Command::Inspector(InspectorCommand::Pin([150, 120])));

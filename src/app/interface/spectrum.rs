@@ -94,11 +94,9 @@ impl SpectrumCard {
                             Some(found) => {
                                 reading = self.plot.show(ui, found, side, spectrum.is_current());
                                 words(ui, viewer, found, reading.as_ref());
-                                legend(ui, found);
+                                legend(ui, found.analysis.of());
                             }
-                            None => {
-                                ui.label(RichText::new(hint(viewer)).small().weak());
-                            }
+                            None => unknown(ui, viewer, side),
                         }
                     });
                 });
@@ -109,6 +107,19 @@ impl SpectrumCard {
             reading,
         }
     }
+}
+
+/// What stands there while nothing is found: as high as what will be, so that the buttons stay under the pointer.
+fn unknown(ui: &mut Ui, viewer: &Viewer, side: f32) {
+    let size = SpectrumPlot::size(ui, side);
+    ui.allocate_ui(size, |ui| {
+        ui.set_min_size(size);
+        ui.label(RichText::new(hint(viewer)).small().weak());
+    });
+    for _ in 0..2 {
+        ui.label(RichText::new(" ").small());
+    }
+    legend(ui, viewer.spectrum().of());
 }
 
 /// What is said where there is nothing to plot.
@@ -265,8 +276,8 @@ fn number(value: f64, digits: usize) -> String {
 }
 
 /// What lightness and hues mean.
-fn legend(ui: &mut Ui, found: &SpectrumFound) {
-    let tip = match found.analysis.of() {
+fn legend(ui: &mut Ui, of: SpectrumOf) {
+    let tip = match of {
         SpectrumOf::Scene => {
             "Lighter is stronger, in dB: a wave from black to white has 0. In colours are the waves outside of the box, which are \
              too fine for pixels, and where they land in it with one sample for each."

@@ -53,11 +53,9 @@ impl SpectrumPlot {
         is_current: bool,
     ) -> Option<SpectrumReading> {
         let scale = ui.pixels_per_point();
-        let side = pixels((width - AXES.x) * scale);
-        // Whole device pixels, so that none of the picture's is left out.
+        let side = Self::side(ui, width);
         let square = Vec2::splat(side as f32 / scale);
-        let (response, painter) =
-            ui.allocate_painter(vec2(width, square.y + AXES.y + 4.0), Sense::focusable_noninteractive());
+        let (response, painter) = ui.allocate_painter(Self::size(ui, width), Sense::focusable_noninteractive());
         let corner = response.rect.min + vec2(AXES.x, 4.0);
         let corner = pos2((corner.x * scale).round(), (corner.y * scale).round()) / scale;
         let axes = Axes {
@@ -97,6 +95,19 @@ impl SpectrumPlot {
         }
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Strength of each frequency"));
         reading
+    }
+
+    /// What a plot takes that is `width` points wide, in points.
+    pub(super) fn size(ui: &Ui, width: f32) -> Vec2 {
+        vec2(
+            width,
+            Self::side(ui, width) as f32 / ui.pixels_per_point() + AXES.y + 4.0,
+        )
+    }
+
+    /// The side of its square: whole device pixels, so that none of the picture's is left out.
+    fn side(ui: &Ui, width: f32) -> u32 {
+        pixels((width - AXES.x) * ui.pixels_per_point())
     }
 
     fn texture(&mut self, ui: &Ui, found: &Arc<SpectrumFound>, side: u32) -> &TextureHandle {

@@ -76,6 +76,26 @@ fn spectrum_beside_b_says_whose_it_is() {
 }
 
 #[test]
+fn card_of_a_spectrum_is_as_high_while_it_is_computed() {
+    for window in [[640, 480], [1280, 800]] {
+        let mut session = session(floor(), window);
+        session.command(Command::Spectrum(SpectrumCommand::Show(Toggle::On)));
+        // Of the texture of a pixel that shows none, nothing is found for certain.
+        session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Texture)));
+        session.command(Command::Inspector(InspectorCommand::Pin([300, 5])));
+        session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+        session.settle();
+        assert!(says(&mut session, "shows no texture"), "nothing is found");
+        let before = [CLOSE, "Spectrum of: scene"].map(|name| place_of(&mut session, name));
+        session.command(Command::Spectrum(SpectrumCommand::Of(SpectrumOf::Scene)));
+        session.settle();
+        assert!(!says(&mut session, "shows no texture"), "something is");
+        let after = [CLOSE, "Spectrum of: scene"].map(|name| place_of(&mut session, name));
+        assert_eq!(before, after, "its buttons stay in {window:?}");
+    }
+}
+
+#[test]
 fn spectrum_of_nothing_has_no_wave_to_point_at() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/14_one_edge.svg");
     let mut session = session(vec![path], [900, 650]);

@@ -9,6 +9,7 @@ use crate::viewer::ab::sides::truth_words;
 use crate::viewer::board::entry::BoardEntry;
 use crate::viewer::board::numbers::BoardNumbers;
 use crate::viewer::export::spec::PictureSpec;
+use crate::viewer::settings::{Settings, picture};
 
 /// What all entries of a board are drawn of, and the truth that they are compared with.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,14 +68,19 @@ impl BoardPlace {
         }
     }
 
-    /// What the truth is, in words such as `256 samples in stored values`; a filter is told where it is not the box.
+    /// What the truth is, in words such as `256 samples in stored values`; a filter is told where it is not the box as it is,
+    /// as captions tell it.
     pub fn truth_words(&self) -> String {
-        let render = &self.truth.render;
-        let words = truth_words(render.resolve);
-        if render.resolve_filter == RenderSettings::default().resolve_filter {
-            return words;
-        }
-        format!("{words}, filter {}", render.resolve_filter.name())
+        let settings = Settings::of(self.truth.render, self.truth.dialect);
+        let filters = ["resolve-filter", "filter-radius"]
+            .into_iter()
+            .filter_map(picture::find);
+        let filters = filters.filter(|setting| !setting.is_default(&settings));
+        let words = filters.map(|setting| setting.words(&settings));
+        let all: Vec<String> = std::iter::once(truth_words(self.truth.render.resolve))
+            .chain(words)
+            .collect();
+        all.join(", ")
     }
 
     /// The region in words, such as `64 x 64 pixels from 100, 80`.

@@ -95,9 +95,9 @@ impl Axis {
         picture::find(&self.name).map_or(value, |setting| setting.short(value))
     }
 
-    /// The setting in words, such as `sample rate`.
+    /// The setting in words, such as `sample rate`: what it is called everywhere.
     pub fn title(&self) -> String {
-        self.name.replace('-', " ")
+        picture::find(&self.name).map_or_else(|| self.name.replace('-', " "), |setting| setting.label.to_owned())
     }
 }
 

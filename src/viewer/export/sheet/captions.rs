@@ -24,10 +24,18 @@ pub fn caption_of(spec: &PictureSpec) -> String {
     format!("{}.", parts.collect::<Vec<_>>().join(". "))
 }
 
-/// What a measure of a picture says of it: the settings that differ from their defaults, size and view.
+/// What a measure of a picture says of it: the sample rate, the settings that differ from their defaults, size and view.
 pub fn conditions_of(spec: &PictureSpec) -> String {
-    let settings = shared_words(spec, |name| has_no_effect(spec, name));
-    let settings = Some(settings).filter(|settings| !settings.is_empty());
+    let told = |name: &str| has_no_effect(spec, name) || name == RATE;
+    // Whoever measures asks for it first.
+    let rate = picture::find(RATE).filter(|_| !has_no_effect(spec, RATE));
+    let rate = rate.map(|rate| rate.words(&Settings::of(spec.render, spec.dialect)));
+    let settings = shared_words(spec, told);
+    let settings: Vec<String> = rate
+        .into_iter()
+        .chain(Some(settings).filter(|words| !words.is_empty()))
+        .collect();
+    let settings = Some(settings.join(", ")).filter(|settings| !settings.is_empty());
     let parts: Vec<String> = settings.into_iter().chain(seen(spec, "")).collect();
     let mut said = format!("{}.", parts.join(". "));
     if let Some(first) = said.get_mut(..1) {
@@ -187,12 +195,12 @@ pub fn title(scene: &SceneSource) -> String {
 
 /// The settings in words that differ from their defaults, but for those that are `told` elsewhere.
 pub(in crate::viewer) fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
-    let settings = spec.settings().into_iter().filter(|(name, _)| !told(name));
-    // Samples that somebody wrote down fill pages; records and command lines have them.
-    let short =
-        |name: &str, value: String| picture::find(name).map_or(value.clone(), |known| known.short(&value).to_owned());
-    let words = settings.map(|(name, value)| format!("{} {}", name.replace('-', " "), short(name, value)));
-    words.collect::<Vec<_>>().join(", ")
+    let settings = Settings::of(spec.render, spec.dialect);
+    let changed = picture::all().filter(|setting| !setting.is_default(&settings) && !told(setting.option));
+    changed
+        .map(|setting| setting.words(&settings))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Size, view and insets in words; the view has no more digits than can be seen, for the record has them all.
@@ -221,6 +229,8 @@ mod tests {
     use crate::raster::{PixelCoverage, SamplePattern};
     use crate::render::RenderSettings;
     use crate::scene::DialectChoice;
+    use crate::viewer::export::sheet::axes::Axis;
+    use crate::viewer::settings::picture::SettingChange;
 
     #[test]
     fn conditions_tell_what_differs_from_the_defaults() {
@@ -233,12 +243,46 @@ mod tests {
             insets: Vec::new(),
             legend: false,
         };
-        assert_eq!(conditions_of(&spec), "200 \u{d7} 160 pixels, view default.", "nothing");
+        let said = "Sample rate 1. 200 \u{d7} 160 pixels, view default.";
+        assert_eq!(conditions_of(&spec), said, "nothing but the rate, whatever that is");
         spec.render.pattern = SamplePattern::Sobol;
-        let said = "Pattern sobol. 200 \u{d7} 160 pixels, view default.";
+        let said = "Sample rate 1, pattern sobol. 200 \u{d7} 160 pixels, view default.";
         assert_eq!(conditions_of(&spec), said, "a setting");
         spec.render.coverage = PixelCoverage::Exact;
         let said = "Coverage exact. 200 \u{d7} 160 pixels, view default.";
         assert_eq!(conditions_of(&spec), said, "where no sample lies, no pattern is told");
+    }
+
+    #[test]
+    fn settings_have_the_same_names_everywhere() {
+        let mut settings = Settings::default();
+        for (option, value) in [
+            ("texture-wrap", "repeat"),
+            ("lod-bias", "1.5"),
+            ("resolve-filter", "gaussian"),
+        ] {
+            let change = SettingChange::of(option, value).expect("a value");
+            assert!(change.apply(&mut settings).is_none(), "{option}");
+        }
+        let spec = PictureSpec {
+            scene: SceneSource::from_address(Path::new("gallery:basic/test4.svg")),
+            size: [200, 160],
+            view: View::Default,
+            render: settings.render,
+            dialect: settings.dialect,
+            insets: Vec::new(),
+            legend: false,
+        };
+        let words = shared_words(&spec, |_| false);
+        for setting in picture::all().filter(|setting| !setting.is_default(&settings)) {
+            let own = setting.words(&settings);
+            assert!(words.contains(&own), "{words} has no {own}");
+            let axis = Axis::of(setting.option, &setting.value(&settings)).expect("a value");
+            assert!(
+                own.starts_with(&axis.title()),
+                "{own} is called {} on sheets",
+                axis.title()
+            );
+        }
     }
 }

@@ -328,7 +328,13 @@ impl Cure {
             }
             Setting::PostProcess => format!("Post-process {value}"),
         };
-        format!("{what}: {} nearer to the truth.", levels(self.nearer))
+        // Kernels continue a texture between its texels, in the truth, too: the next verdict is by another one.
+        let moves = if self.setting == Setting::PixelSampling {
+            ", which it moves, too"
+        } else {
+            ""
+        };
+        format!("{what}: {} nearer to the truth{moves}.", levels(self.nearer))
     }
 }
 

@@ -139,6 +139,35 @@ fn a_pyramid_unlike_the_samples_is_called_luck() {
 }
 
 #[test]
+fn a_kernel_is_said_to_move_the_truth() {
+    let mut found = advised(
+        &textured("checker.png", 0.3),
+        &with(4, LevelSampling::Linear),
+        [8, 8],
+        [5, 5],
+    );
+    for (setting, value, end) in [
+        (
+            Setting::PixelSampling,
+            "catmull-rom",
+            "3 levels nearer to the truth, which it moves, too.",
+        ),
+        (Setting::LevelSampling, "zero", "3 levels nearer to the truth."),
+    ] {
+        found.truth.as_mut().unwrap().cures = vec![Cure {
+            setting,
+            value: value.to_owned(),
+            color: [255; 4],
+            nearer: 3.0,
+            samples: None,
+            dialect: None,
+        }];
+        let told = hints(&found);
+        assert!(told.ends_with(end), "{setting:?}: {told}");
+    }
+}
+
+#[test]
 fn level_0_is_advised_where_samples_read_all_of_it() {
     // One pixel shows 12 x 8 texels.
     let scene = textured("picture.png", 0.0125);

@@ -223,16 +223,16 @@ impl Session {
             return;
         }
         let mut stderr = std::io::stderr().lock();
-        for line in scene.report.lines() {
+        let address = entry.source.address();
+        for line in scene.report.lines_in(&address) {
             // Whoever closed stderr does not want to read it.
-            let address = entry.source.address();
-            let _ = writeln!(stderr, "{}: {}", plain::line(&address), plain::line(&line));
+            let _ = writeln!(stderr, "rasterscope: {}", plain::line(&line));
         }
         if let Some(note) = self.viewer.scene_list().reading_note(self.viewer.settings().dialect) {
             let _ = writeln!(
                 stderr,
-                "{}: {note}; the command other-reading shows it",
-                entry.source.address()
+                "rasterscope: {}: {note}; the command other-reading shows it",
+                plain::line(&address)
             );
         }
         let notes = scene.report.count();

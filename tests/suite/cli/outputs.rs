@@ -107,6 +107,19 @@ fn outputs_never_replace_an_input() {
 }
 
 #[test]
+#[cfg(feature = "window")]
+fn notes_on_a_scene_read_alike_everywhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene =
+        r#"<svg width="40" height="30"><rect width="9" height="9"/><foreignObject width="9" height="9"/></svg>"#;
+    fs::write(folder.path().join("s.svg"), scene).unwrap();
+    let told = |arguments: &[&str]| String::from_utf8(run(folder.path(), arguments).stderr).unwrap();
+    let drawn = told(&["render", "s.svg", "-o", "s.png", SMALL]);
+    assert!(drawn.starts_with("rasterscope: s.svg:1:"), "{drawn}");
+    assert_eq!(told(&["view", "s.svg", "--headless", "--do", "wait; quit"]), drawn);
+}
+
+#[test]
 fn outputs_never_replace_what_a_scene_names_in_vain() {
     let folder = folder();
     let folder = folder.path();

@@ -77,7 +77,16 @@ impl BoardEntry {
         Ok(entries)
     }
 
-    /// The same, for values that somebody asked for by their names.
+    /// What is said of the first value of an axis that no entry has: a rate that the pattern does not take.
+    pub(in crate::viewer) fn not_as_asked(self, axis: &Axis) -> Option<String> {
+        let setting = picture::find(&axis.name)?;
+        axis.values.iter().find_map(|value| {
+            let (entry, remark) = self.changed(&[SettingChange::of(&axis.name, value).ok()?]);
+            remark.filter(|_| entry.value(setting) != *value)
+        })
+    }
+
+    /// As [`BoardEntry::vary`], for values that somebody asked for by their names.
     ///
     /// # Errors
     /// As [`BoardEntry::vary`], and for a rate that the pattern does not take.

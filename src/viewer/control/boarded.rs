@@ -328,7 +328,11 @@ impl Viewer {
 
     /// An entry for each value of a setting takes the place of all others.
     fn vary_on_board(&mut self, axis: &Axis) -> Result<(), String> {
-        let mut entries = BoardEntry::of(&self.settings).vary(axis)?;
+        let own = BoardEntry::of(&self.settings);
+        let mut entries = own.vary(axis)?;
+        if let Some(remark) = own.not_as_asked(axis) {
+            self.chrome.messages.error(remark);
+        }
         let count = entries.len();
         entries.truncate(MAX_ENTRIES);
         if count > MAX_ENTRIES {

@@ -212,6 +212,16 @@ fn board_holds_nine_different_settings() {
         .iter()
         .any(|message| message.text.contains("first 9 of 12"));
     assert!(told, "and that is said");
+    let said = session.viewer.chrome().messages().len();
+    session.run(vary("sample-rate", "1,4"));
+    assert_eq!(session.viewer.chrome().messages().len(), said, "as asked");
+    session.run(vary("sample-rate", "1,5"));
+    let rates = captions(&session).join(" ");
+    assert!(rates.contains("sample rate 4"), "the nearest: {rates}");
+    assert!(problem(&session).contains('5'), "which is said: {}", problem(&session));
+    session.run(board(BoardCommand::Vary(Axis::first(
+        rasterscope::viewer::picture::find("pattern").unwrap(),
+    ))));
     session.run(board(BoardCommand::Remove(8)));
     session.run(board(BoardCommand::Remove(77)));
     assert_eq!(session.viewer.board().tiles().len(), 8, "one is gone");

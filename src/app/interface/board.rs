@@ -31,6 +31,8 @@ const MARGIN: f32 = 10.0;
 const FRAME: f32 = 14.0;
 /// Height of what is below title and controls at least, in points.
 const LEAST_TILES: f32 = 60.0;
+/// So little room above the card, in points, is not left free: the next entry would move the card up by a part of it.
+const LITTLE: f32 = 64.0;
 /// Width of the controls in one or two rows, in points.
 const CONTROLS: f32 = 660.0;
 
@@ -40,6 +42,30 @@ const NARROW: f32 = CONTROLS;
 /// Height of the list of settings, in points.
 const VARY_HEIGHT: f32 = 320.0;
 
+/// How large the card's contents have been, in a room of this size, both in points. They stay so large: the buttons above the tiles
+/// would move away from under the pointer that adds entries with them.
+#[derive(Debug, Default)]
+struct Kept {
+    room: Vec2,
+    size: Vec2,
+}
+
+impl Kept {
+    /// Another room, and a board without tiles, begin anew.
+    fn follow(&mut self, room: Vec2, is_empty: bool) {
+        if self.room != room || is_empty {
+            *self = Self { room, size: Vec2::ZERO };
+        }
+    }
+
+    /// Takes in how large contents with tiles are. Where there is little room left above, they take that as well.
+    fn take(&mut self, size: Vec2) {
+        let left = self.room.y - size.y;
+        let height = if left < LITTLE { size.y.max(self.room.y) } else { size.y };
+        self.size = self.size.max(vec2(size.x, height));
+    }
+}
+
 /// What the card remembers.
 #[derive(Debug, Default)]
 pub(super) struct BoardCard {
@@ -47,6 +73,7 @@ pub(super) struct BoardCard {
     corner: CardCorner,
     /// What stood above the tiles in the last pass, in points.
     above: f32,
+    kept: Kept,
     /// Whether the list of settings hung open in the last pass.
     list_open: bool,
 }
@@ -63,10 +90,12 @@ impl BoardCard {
     ) -> Option<Rect> {
         let board = viewer.board();
         if !board.is_open() {
+            self.kept = Kept::default();
             return None;
         }
         let room = free.shrink(MARGIN).size() - Vec2::splat(FRAME);
         let tiles = board.tiles();
+        self.kept.follow(room, tiles.is_empty());
         let bar = f32::from(BAR_ROOM);
         let for_tiles = vec2(room.x - bar, room.y - self.above.max(60.0));
         let captions = |width: f32| caption_lines(ui, &tiles, width);
@@ -76,7 +105,8 @@ impl BoardCard {
             for_tiles,
             captions,
         );
-        let width = (grid.map_or(0.0, Grid::width) + bar).max(CONTROLS).min(room.x);
+        let width = (grid.map_or(0.0, Grid::width) + bar).max(CONTROLS);
+        let width = width.max(self.kept.size.x).min(room.x);
         let id = Id::unique("board");
         let area = Area::new(id)
             .order(Order::Middle)
@@ -88,6 +118,7 @@ impl BoardCard {
                 FocusPanel::Board.head_of_area(ui, id);
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(width);
+                    ui.set_min_height(self.kept.size.y.min(room.y));
                     let top = ui.cursor().top();
                     head(ui, viewer, commands);
                     let head = ui.cursor().top() - top;
@@ -124,6 +155,9 @@ impl BoardCard {
                                 None => list(ui, &tiles, timed, commands),
                             }
                         });
+                    if !tiles.is_empty() {
+                        self.kept.take(ui.min_rect().size());
+                    }
                 });
             });
         self.corner.drawn(ui.ctx(), area.response.rect);
@@ -383,6 +417,30 @@ fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn board_stays_as_large_as_it_was() {
+        let (room, mut kept) = (vec2(600.0, 400.0), Kept::default());
+        let sizes = [(300.0, 150.0), (500.0, 120.0), (400.0, 330.0), (400.0, 350.0)].map(|(width, height)| {
+            kept.follow(room, false);
+            kept.take(vec2(width, height));
+            kept.size
+        });
+        let expected = [
+            (300.0, 150.0),
+            (500.0, 150.0),
+            (500.0, 330.0),
+            // Nearly all of the room.
+            (500.0, 400.0),
+        ];
+        assert_eq!(sizes, expected.map(Vec2::from));
+        let sizes = [(room, true), (vec2(500.0, 400.0), false)].map(|(room, is_empty)| {
+            kept.take(vec2(300.0, 200.0));
+            kept.follow(room, is_empty);
+            kept.size
+        });
+        assert_eq!(sizes, [Vec2::ZERO; 2], "another board, another room");
+    }
 
     #[test]
     fn boards_say_what_all_tiles_share_and_where_a_is_not() {

@@ -63,6 +63,29 @@ fn numbers_of_what_is_not_there_are_told() {
 }
 
 #[test]
+fn buttons_of_a_board_stay_where_they_are_while_it_fills() {
+    let mut session = session(rings(), [640, 480]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+    session.command(Command::Board(BoardCommand::Show(Toggle::On)));
+    session.settle();
+    let places = |session: &mut Session| [CLOSE, "Add A"].map(|name| place_of(session, name));
+    let before = places(&mut session);
+    for (setting, values) in [
+        ("sample-rate", "1,4,16,25"),
+        ("pattern", "grid,r2,sobol,halton,rotated"),
+        ("sample-rate", "4"),
+    ] {
+        vary(&mut session, setting, values);
+        assert_eq!(places(&mut session), before, "{setting} {values}");
+    }
+    let mut session = hands::session(rings(), [1280, 800]);
+    vary(&mut session, "sample-rate", "1,4,16,25");
+    let before = places(&mut session);
+    vary(&mut session, "sample-rate", "1,4");
+    assert_eq!(places(&mut session), before, "fewer entries");
+}
+
+#[test]
 fn board_is_worked_by_hand() {
     let mut session = session(rings(), [1280, 800]);
     vary(&mut session, "sample-rate", "1,4,16");

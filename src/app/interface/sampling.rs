@@ -23,7 +23,13 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let (document, sampling): (Vec<_>, Vec<_>) = picture::all().partition(|setting| setting.about == About::Document);
     ui.add_space(2.0);
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Sampling").strong().size(12.0));
+        // Whichever of both is to be seen: the controls are those of A.
+        let title = if viewer.ab().other().is_some() {
+            "Sampling of A"
+        } else {
+            "Sampling"
+        };
+        ui.label(RichText::new(title).strong().size(12.0));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if command_button(ui, "pattern-view", "Points").clicked() {
                 commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)));

@@ -339,6 +339,17 @@ fn explanation_leaves_a_picture_from_outside_where_it_is() {
 }
 
 #[test]
+fn panel_says_whose_settings_it_has() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    assert!(!says(&mut session, "Sampling of A"), "there is no B");
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.settle();
+    assert!(says(&mut session, "Sampling of A"), "whichever is to be seen");
+}
+
+#[test]
 fn line_that_nobody_moved_leaves_both_pictures_room() {
     for window in [[1280, 800], [1366, 768], [1920, 1080]] {
         for x in [0.24, 0.6] {

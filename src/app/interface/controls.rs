@@ -198,6 +198,26 @@ pub(super) fn tip(id: &str) -> String {
     commands::find(id).map(CommandSpec::tip).unwrap_or_default()
 }
 
+/// Buttons with these texts at the right end of a row. They are laid out from left to right, which is the way that Tab goes.
+pub(super) fn at_end<R>(ui: &mut Ui, texts: &[&str], buttons: impl FnOnce(&mut Ui) -> R) -> R {
+    let font = TextStyle::Button.resolve(ui.style());
+    let spacing = ui.spacing();
+    let (padding, gap) = (2.0 * spacing.button_padding.x, spacing.item_spacing.x);
+    let widths = texts.iter().map(|text| {
+        let text = ui
+            .painter()
+            .layout_no_wrap((*text).to_owned(), font.clone(), Color32::WHITE);
+        (text.size().x + padding).max(CONTROL.x)
+    });
+    let width = widths.sum::<f32>() + gap * (texts.len().max(1) - 1) as f32;
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let size = vec2(width, CONTROL.y);
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), buttons)
+            .inner
+    })
+    .inner
+}
+
 /// A button for the command `id`: its tool tip and accessible name come from the table.
 pub(super) fn command_button(ui: &mut Ui, id: &str, text: &str) -> Response {
     let name = commands::find(id).map_or(id, |spec| spec.name);

@@ -2,7 +2,7 @@
 
 use egui::{Button, CollapsingHeader, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
-use super::controls::{command_button, tip};
+use super::controls::{at_end, command_button, tip};
 use super::floating::shows_other_than_set;
 use super::hovered::Hovered;
 use super::look::opaque;
@@ -302,13 +302,14 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
         if viewer.ab().other().is_some() {
             ui.label("of A");
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if !is_page && command_button(ui, "explanation", "Close").clicked() {
-                commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
-            }
+        let texts = ["Copy", "Close"];
+        at_end(ui, if is_page { &texts[..1] } else { &texts }, |ui| {
             let copy = ui.add_enabled_ui(in_sight, |ui| command_button(ui, "copy-explanation", "Copy"));
             if copy.inner.clicked() {
                 commands.push(Command::Export(ExportCommand::CopyExplanation));
+            }
+            if !is_page && command_button(ui, "explanation", "Close").clicked() {
+                commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
             }
         });
     });

@@ -6,7 +6,7 @@ use std::ops::Range;
 use egui::text::{CCursor, LayoutJob, TextFormat};
 use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
 
-use super::controls::{choice, command_button, tip};
+use super::controls::{at_end, choice, command_button, tip};
 use crate::viewer::{
     Block, Command, CommandSpec, InspectorCommand, Lesson, LessonCommand, LessonStep, Look, SceneCommand, Span, Toggle,
     Viewer, commands,
@@ -47,9 +47,11 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some((lesson, at)) = viewer.lesson() else { return };
     ui.horizontal(|ui| {
         steps(ui, lesson, at, commands);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if command_button(ui, "close-lesson", "Close").clicked() {
-                commands.push(Command::Lesson(LessonCommand::Close));
+        at_end(ui, &["Back", "Next", "Close"], |ui| {
+            let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
+            back.response.on_disabled_hover_text("This is the first step");
+            if back.inner.clicked() {
+                commands.push(Command::Scenes(SceneCommand::Previous));
             }
             let is_last = at + 1 == lesson.steps.len();
             let next = ui.add_enabled_ui(!is_last, |ui| command_button(ui, "next-scene", "Next"));
@@ -57,10 +59,8 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if next.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Next));
             }
-            let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
-            back.response.on_disabled_hover_text("This is the first step");
-            if back.inner.clicked() {
-                commands.push(Command::Scenes(SceneCommand::Previous));
+            if command_button(ui, "close-lesson", "Close").clicked() {
+                commands.push(Command::Lesson(LessonCommand::Close));
             }
         });
     });

@@ -1,8 +1,8 @@
 //! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
-use egui::{Align, Color32, DragValue, Layout, RichText, Ui, vec2};
+use egui::{Color32, DragValue, Layout, RichText, Ui, vec2};
 
-use super::controls::{Offered, choice, choice_of, command_button, drop_down, finite, gave_up, row, tip};
+use super::controls::{Offered, at_end, choice, choice_of, command_button, drop_down, finite, gave_up, row, tip};
 use super::look::CONTROL;
 use crate::scene::Dialect;
 use crate::viewer::picture::{self, About, Control, PanelRow};
@@ -30,14 +30,14 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             "Sampling"
         };
         ui.label(RichText::new(title).strong().size(12.0));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if command_button(ui, "pattern-view", "Points").clicked() {
-                commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)));
-            }
+        at_end(ui, &["Defaults", "Points"], |ui| {
             let changed = !picture::are_defaults(viewer.settings());
             let defaults = ui.add_enabled_ui(changed, |ui| command_button(ui, "default-settings", "Defaults"));
             if defaults.inner.clicked() {
                 commands.push(Command::SetDefaults);
+            }
+            if command_button(ui, "pattern-view", "Points").clicked() {
+                commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)));
             }
         });
     });

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Role, Sense, StrokeKind, TextureHandle};
 use egui::{TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::controls::{command_button, heading, tip};
+use super::controls::{at_end, command_button, heading, tip};
 use super::focus;
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
@@ -100,12 +100,15 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             ui.spacing_mut().item_spacing.x = 4.0;
             // The only scene has no neighbours; a lesson's steps are many on one scene, too.
             let leads_on = viewer.scene_list().scenes().len() > 1 || viewer.lesson().is_some();
-            for (id, text) in [("next-scene", "›"), ("previous-scene", "‹")] {
-                let button = ui.add_enabled_ui(leads_on, |ui| command_button(ui, id, text));
-                if button.inner.clicked() {
-                    commands.extend(crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command));
+            at_end(ui, &["‹", "›"], |ui| {
+                for (id, text) in [("previous-scene", "‹"), ("next-scene", "›")] {
+                    let button = ui.add_enabled_ui(leads_on, |ui| command_button(ui, id, text));
+                    if button.inner.clicked() {
+                        commands
+                            .extend(crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command));
+                    }
                 }
-            }
+            });
             let place = format!(
                 "{} of {}",
                 viewer.scene_list().current_index() + 1,

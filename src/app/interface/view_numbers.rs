@@ -3,9 +3,9 @@
 use std::cell::Cell;
 
 use egui::text::CCursorRange;
-use egui::{Align, Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
+use egui::{Color32, DragValue, Layout, RichText, TextEdit, Ui, vec2};
 
-use super::controls::{command_button, finite, gave_up, row};
+use super::controls::{at_end, command_button, finite, gave_up, row};
 use crate::viewer::{Command, SceneEntry, ViewCommand, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
@@ -42,9 +42,9 @@ fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
     ui.add_space(3.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new("View").strong().size(12.0));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.spacing_mut().item_spacing.x = 4.0;
-            for (id, text) in [("board", "Board"), ("profile", "Profile"), ("spectrum", "Spectrum")] {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        at_end(ui, &["Spectrum", "Profile", "Board"], |ui| {
+            for (id, text) in [("spectrum", "Spectrum"), ("profile", "Profile"), ("board", "Board")] {
                 let command = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);
                 if command_button(ui, id, text).clicked() {
                     commands.extend(command);

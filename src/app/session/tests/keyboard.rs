@@ -14,7 +14,8 @@ use super::hands::{click_on, key, nodes, right_click, says, session};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{
-    AbCommand, Against, BoardCommand, Dialog, Group, LessonSource, ProfileCommand, SpectrumCommand, Toggle,
+    AbCommand, Against, BoardCommand, Dialog, Group, LessonCommand, LessonSource, ProfileCommand, SpectrumCommand,
+    Toggle, commands,
 };
 
 /// The name of what has the keyboard; `None` for the picture.
@@ -81,6 +82,36 @@ fn the_key_reaches_what_floats_over_the_picture() {
             Some(&expected[1]),
             "one back from a control of the {card}"
         );
+    }
+}
+
+#[test]
+fn tab_goes_from_left_to_right_in_a_row() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    // Its second step has other settings: no button is disabled.
+    session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
+    session.command(Command::Lesson(LessonCommand::Step(1)));
+    session.settle();
+    key(&mut session, "F6");
+    let mut names = Vec::new();
+    for _ in 0..100 {
+        key(&mut session, "Tab");
+        session.settle();
+        names.extend(focused(&mut session));
+    }
+    let at = |id: &str| {
+        let spec = commands::find(id).expect("a command");
+        names.iter().position(|known| known == spec.name)
+    };
+    for row in [
+        &["previous-scene", "next-scene", "close-lesson"][..],
+        &["default-settings", "pattern-view"],
+        &["spectrum", "profile", "board"],
+    ] {
+        let places: Vec<usize> = row.iter().filter_map(|id| at(id)).collect();
+        assert_eq!(places.len(), row.len(), "{row:?} among {names:?}");
+        assert!(places.is_sorted(), "{row:?} among {names:?}");
     }
 }
 

@@ -68,7 +68,7 @@ fn buttons_of_a_board_stay_where_they_are_while_it_fills() {
     session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
     session.command(Command::Board(BoardCommand::Show(Toggle::On)));
     session.settle();
-    let places = |session: &mut Session| [CLOSE, "Add A"].map(|name| place_of(session, name));
+    let places = |session: &mut Session| [CLOSE, "Add to the board"].map(|name| place_of(session, name));
     let before = places(&mut session);
     for (setting, values) in [
         ("sample-rate", "1,4,16,25"),

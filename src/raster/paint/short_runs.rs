@@ -1,9 +1,10 @@
-//! Fills and copies runs of values side by side. Most are a few pixels long, for which a call, or a loop whose length nobody can
-//! foretell, would take longer: the longest piece that fits is put at the start, and once more at the end.
+//! Fills and copies runs of values side by side. Most are a few pixels long, for which a call, or a loop over single values, would take
+//! longer: the longest piece that fits is put again and again, and once more up to the end. Copying knows longer pieces, and puts only
+//! two: a loop over pieces would be made a call.
 //!
 //! ```text
-//!    |- - - - 8 - - - -|
-//!             |- - - - 8 - - - -|      they overlap
+//!    |- - - - 8 - - - -|- - - - 8 - - - -|
+//!                   |- - - - 8 - - - -|      the last piece overlaps
 //! ```
 
 #![expect(clippy::inline_always, reason = "a piece of a known length is put from registers")]
@@ -11,13 +12,7 @@
 /// Fills a run.
 #[inline(always)]
 pub(super) fn fill_run<T: Copy>(run: &mut [T], value: T) {
-    if run.len() > 2 * LONGEST {
-        run.fill(value);
-    } else if !(fill::<T, LONGEST>(run, value)
-        || fill::<T, 16>(run, value)
-        || fill::<T, 8>(run, value)
-        || fill::<T, 4>(run, value)
-        || fill::<T, 2>(run, value))
+    if !(fill::<T, 8>(run, value) || fill::<T, 4>(run, value) || fill::<T, 2>(run, value))
         && let [one] = run
     {
         *one = value;
@@ -40,18 +35,18 @@ pub(super) fn copy_run<T: Copy>(values: &[T], run: &mut [T]) {
     }
 }
 
-/// Values of the longest piece.
+/// Values of the longest piece that is copied.
 const LONGEST: usize = 32;
 
-/// Fills by two pieces of `N`, which leave nothing out between them; `false` where there is not even one.
+/// Fills by pieces of `N`; `false` where there is not even one.
 #[inline(always)]
 fn fill<T: Copy, const N: usize>(run: &mut [T], value: T) -> bool {
-    let Some(first) = run.first_chunk_mut::<N>() else {
+    let Some(last) = run.last_chunk_mut::<N>() else {
         return false;
     };
-    *first = [value; N];
-    if let Some(last) = run.last_chunk_mut::<N>() {
-        *last = [value; N];
+    *last = [value; N];
+    for piece in run.as_chunks_mut::<N>().0 {
+        *piece = [value; N];
     }
     true
 }

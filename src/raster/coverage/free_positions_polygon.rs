@@ -278,7 +278,7 @@ impl FreePositionsPolygon {
     /// As [`FreePositionsPolygon::edges_alone`] where `N` edges are; all that lies left of them winds around each sample as often
     /// as `winding` says.
     ///
-    /// What is true of a pixel is hard to foretell for a processor: so nothing here depends on it.
+    /// Processors cannot predict what is true of a single pixel, so no branch here depends on it.
     #[inline(always)]
     fn few_edges<S: Simd, const N: usize>(
         &mut self,
@@ -454,7 +454,7 @@ impl Sweep {
         next
     }
 
-    /// Takes leave of the edges that lie left of a pixel.
+    /// Retires the edges that lie left of a pixel: from now on they wind around whole rows.
     fn leave_behind(&mut self, x: i32) {
         (self.last, self.farthest) = (i32::MAX, i32::MIN);
         self.are_changes_known = false;

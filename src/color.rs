@@ -11,6 +11,7 @@ mod over;
 mod ramp;
 mod resolve;
 mod resolver;
+mod running_sums;
 mod sample_mean;
 mod spaces;
 mod sum_bounds;
@@ -29,6 +30,7 @@ pub(crate) use near_light::{NearLight, certain_bytes, certain_bytes_of_light, ne
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
+pub(crate) use running_sums::RunningSums;
 pub use sample_mean::SampleMean;
 pub use spaces::ColorSpace;
 pub(crate) use sum_bounds::{SumBounds, sums_between};

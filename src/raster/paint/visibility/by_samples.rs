@@ -7,7 +7,7 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::{Light, Premultiplied16, SampleMean, SumBounds};
+use crate::color::{Light, Premultiplied16, RunningSums, SampleMean, SumBounds};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::bounded_parts::BoundedParts;
@@ -54,6 +54,7 @@ pub(super) struct SampleShades {
     pub(super) colors: Vec<Premultiplied16>,
     /// Those of a paint above.
     pub(super) above: Vec<Premultiplied16>,
+    running: RunningSums,
     /// Pixels of which all samples are shaded, and what becomes of them.
     pub(super) whole: Vec<[u16; 2]>,
     pub(super) pixels: Vec<u32>,
@@ -156,18 +157,19 @@ impl SampleShades {
         }
         self.gather(fragments, samples.positions, samples.grid);
         self.shade(shader, samples.grid);
-        let mut colors = &self.colors[..self.points.len()];
-        for Fragment { pixel, mask, .. } in fragments {
-            let (of_fragment, others) = colors.split_at(mask.count_ones() as usize);
-            colors = others;
-            match samples.mean {
-                SampleMean::Stored(_) => {
-                    let found = Premultiplied16::sums(of_fragment);
-                    for (sum, channel) in pixels.sums[*pixel as usize].iter_mut().zip(found) {
-                        *sum += channel;
-                    }
+        let colors = &self.colors[..self.points.len()];
+        let counts = fragments.iter().map(|part| part.mask.count_ones());
+        let mut fragments = fragments.iter();
+        let mut pixel = || fragments.next().map_or(0, |part| part.pixel as usize);
+        match samples.mean {
+            SampleMean::Stored(_) => self.running.stored(colors, counts, |found| {
+                for (sum, channel) in pixels.sums[pixel()].iter_mut().zip(found) {
+                    *sum += channel;
                 }
-                SampleMean::Linear(resolver) => pixels.lights[*pixel as usize] += resolver.opaque_light(of_fragment),
+            }),
+            SampleMean::Linear(resolver) => {
+                self.running
+                    .opaque_light(resolver, colors, counts, |light| pixels.lights[pixel()] += light);
             }
         }
         self.points.len()

@@ -1,5 +1,5 @@
-//! What all samples of pixels add up to that each read four texels, of one level or two, or the means of their light: exactly as one
-//! by one, sixteen samples at once.
+//! What all samples of pixels add up to that each read four texels, of one level or two, or some of them, or the means of their light:
+//! exactly as one by one, sixteen samples at once.
 //!
 //! Where the samples of a pixel lie in no block, or where it is in doubt which texels they read, they are shaded one by one after all;
 //! so they are where the light that is found leaves two bytes open.
@@ -53,14 +53,14 @@ struct Sums<S: Simd> {
 }
 
 impl<'w> BilinearList<'w> {
-    /// All samples of the pixels of a list, where each reads four texels of a level; `None` where they read others, or are too few.
+    /// The samples of the pixels of a list, where each reads four texels of a level; `None` where they read others, or are too few.
     pub(super) fn new(plan: &'w Plan<'w>, side: u32, list: ValueList<'w>) -> Option<Self> {
         let reads_four = plan.pixel == PixelSampling::Bilinear && plan.wrap == Wrap::Clamp && plan.line.taps.count == 1;
         let levels = [Some(&plan.finer), plan.coarser.as_ref()];
         let axes = levels.into_iter().flatten().flat_map(|level| [&level.x, &level.y]);
         let farthest = plan.first.abs().max_element() + f64::from(u16::MAX);
         let are_enough = list.count >= FEWEST && list.pixels.len() >= FEWEST_PIXELS;
-        if !reads_four || !are_enough || list.masks.is_some() || !axes.into_iter().all(|axis| is_near(axis, farthest)) {
+        if !reads_four || !are_enough || !list.fits_masks() || !axes.into_iter().all(|axis| is_near(axis, farthest)) {
             return None;
         }
         let (mut least, mut most) = ([0.0; 2], [f64::from(side - 1); 2]);
@@ -83,7 +83,7 @@ impl<'w> BilinearList<'w> {
         dispatch!(level, simd => self.light_pixels_with(simd, near, pixels))
     }
 
-    /// What red, green and blue of what all samples store add up to; whether this machine finds that.
+    /// What red, green and blue of what samples store add up to, of those that masks name; whether this machine finds that.
     pub(super) fn sums(self, level: Level, sums: &mut [[u64; 3]]) -> bool {
         matches!(self.list.values, ByteValues::Stored) && dispatch!(level, simd => self.sums_with(simd, sums))
     }
@@ -127,8 +127,15 @@ impl<'w> BilinearList<'w> {
             open.extend(ones(left).map(|i| first + i));
         }
         self.one_by_one(simd.level(), &open, |i, samples| {
-            let [red, green, blue, _] = Premultiplied16::sums(samples);
-            sums[i] = [red, green, blue].map(u64::from);
+            let mut sum = [0; 3];
+            for (sample, Premultiplied16([red, green, blue, _])) in samples.iter().enumerate() {
+                if self.list.masks.is_none_or(|masks| masks[i] >> sample & 1 == 1) {
+                    for (sum, channel) in sum.iter_mut().zip([red, green, blue]) {
+                        *sum += u64::from(*channel);
+                    }
+                }
+            }
+            sums[i] = sum;
         });
         true
     }
@@ -176,7 +183,7 @@ impl<'w> BilinearList<'w> {
         self.list.inside.len() == self.list.count
     }
 
-    /// What the samples of up to [`LANES`] pixels add up to, or their light, in parts of all light.
+    /// What the samples that take part of up to [`LANES`] pixels add up to, or their light, in parts of all light.
     ///
     /// First what all samples read, then what that makes: what one sample needs waits for itself again and again.
     #[inline(always)]
@@ -221,10 +228,11 @@ impl<'w> BilinearList<'w> {
                 }
                 known &= !(u64::from(is_in_doubt(simd, doubt)) << *i);
             }
-            let there = mask32x16::from_bitmask(simd, first_bits(self.list.count - vector));
+            let there = self.there(first, count, vector);
             for (sums, read) in sums.iter_mut().zip(&*read) {
                 for i in lanes {
                     let value = value::<S, IS_LIGHT>(simd, i32x16::load_array_ref(simd, &read[*i]));
+                    let there = mask32x16::from_bitmask(simd, there[*i]);
                     let counting = there.select(value, f32x16::splat(simd, 0.0));
                     let sum = f32x16::load_array_ref(simd, &sums[*i]) + counting;
                     sum.store_array(&mut sums[*i]);
@@ -236,6 +244,18 @@ impl<'w> BilinearList<'w> {
             sums: [of_each(simd, red), of_each(simd, green), of_each(simd, blue)],
             known,
         }
+    }
+
+    /// Of some pixels, which of a vector of samples from this one on take part: a bit for each.
+    #[inline(always)]
+    fn there(&self, first: usize, count: usize, vector: usize) -> [u64; LANES] {
+        let mut there = [first_bits(self.list.count - vector); LANES];
+        if let Some(masks) = self.list.masks_of(first, count) {
+            for (there, mask) in there.iter_mut().zip(masks) {
+                *there &= mask >> vector;
+            }
+        }
+        there
     }
 
     /// How far samples of a pixel, from this one on, lie from its first point in both levels.
@@ -383,11 +403,34 @@ mod tests {
                 let points = list.points(pixel);
                 points.map(|at| oracle::point(&plan, at.map(u32::from))).collect()
             };
+            let masks = (count <= 64)
+                .then(|| places.iter().map(|_| u.arbitrary()).collect::<Result<Vec<u64>>>())
+                .transpose()?;
             let resolver = LightResolver::new(u32::try_from(count).expect("few"), Rules::Standard);
             for (name, level) in simd::tested() {
                 let (mut sums, mut pixels) = (vec![[0; 3]; places.len()], vec![0; places.len()]);
                 if !list.sums(level, &mut sums) || !list.light_pixels(level, &NearLight::new(&resolver), &mut pixels) {
                     continue;
+                }
+                if let Some(masks) = &masks {
+                    let list = BilinearList {
+                        list: ValueList {
+                            masks: Some(masks),
+                            ..list.list
+                        },
+                        ..list
+                    };
+                    let mut of_some = vec![[0; 3]; places.len()];
+                    assert!(list.sums(level, &mut of_some), "{name}");
+                    for (i, sum) in of_some.into_iter().enumerate() {
+                        let samples = samples(i).into_iter().enumerate();
+                        let some: Vec<_> = samples
+                            .filter(|(j, _)| masks[i] >> j & 1 == 1)
+                            .map(|(_, color)| color)
+                            .collect();
+                        let [r, g, b, _] = Premultiplied16::sums(&some);
+                        assert_eq!(sum, [r, g, b].map(u64::from), "{name}: {:b} of {i}", masks[i]);
+                    }
                 }
                 found += 1;
                 in_blocks += dispatch!(level, simd => known(simd, list)).count_ones();

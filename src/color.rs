@@ -26,7 +26,7 @@ use crate::simd;
 pub use blend::BlendMode;
 pub use colormap::Colormap;
 pub use light::{Light, LightResolver};
-pub(crate) use near_light::{NearLight, certain_bytes, certain_bytes_of_light, near_light};
+pub(crate) use near_light::{NearLight, certain_bytes, certain_bytes_of_light, near_light, near_light_of_stored};
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;

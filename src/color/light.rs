@@ -11,7 +11,8 @@ use crate::rules::Rules;
 
 /// Bits of linear light: fine enough to tell all stored values apart, and the sum of 256 samples times their alpha fits 64 bits.
 const BITS: u32 = 31;
-pub(super) const ONE_LIGHT: f64 = (1_u64 << BITS) as f64;
+pub(super) const ALL_LIGHT: u64 = 1 << BITS;
+pub(super) const ONE_LIGHT: f64 = ALL_LIGHT as f64;
 
 /// Linear light of every stored channel; all of it for numbers that are none.
 static LIGHT: LazyLock<Box<[u32; 1 << 16]>> = LazyLock::new(|| {

@@ -57,15 +57,38 @@ const BYTES_OFF: f32 = 5e-4;
 /// What bytes rise by with light is that times its power -7/12.
 const SLOPE: f32 = 255.0 * 1.055 / 2.4;
 
+/// [`POWERS`] of what is stored. Of a power of two no bit is lost: light is the same as from bytes.
+const STORED_POWERS: [f32; 7] = {
+    let (mut powers, mut scale, mut i) = (POWERS, 1.0, POWERS.len());
+    while i > 0 {
+        i -= 1;
+        powers[i] *= scale;
+        scale /= PER_BYTE;
+    }
+    powers
+};
+const PER_BYTE: f32 = Premultiplied16::PER_BYTE as f32;
+
 /// The light of stored values, in parts of all light; `bytes` are `0.0..=255.0`.
 #[inline(always)]
 pub(crate) fn near_light<S: Simd>(simd: S, bytes: f32x16<S>) -> f32x16<S> {
-    let mut light = f32x16::splat(simd, POWERS[0]);
-    for power in &POWERS[1..] {
-        light = light.mul_add(bytes, f32x16::splat(simd, *power));
+    curve(simd, bytes, &POWERS, [BEND, STRAIGHT])
+}
+
+/// The same of values in the units of [`Premultiplied16`].
+#[inline(always)]
+pub(crate) fn near_light_of_stored<S: Simd>(simd: S, stored: f32x16<S>) -> f32x16<S> {
+    curve(simd, stored, &STORED_POWERS, [BEND * PER_BYTE, STRAIGHT / PER_BYTE])
+}
+
+#[inline(always)]
+fn curve<S: Simd>(simd: S, values: f32x16<S>, powers: &[f32; 7], [bend, straight]: [f32; 2]) -> f32x16<S> {
+    let mut light = f32x16::splat(simd, powers[0]);
+    for power in &powers[1..] {
+        light = light.mul_add(values, f32x16::splat(simd, *power));
     }
-    let is_straight = bytes.simd_le(f32x16::splat(simd, BEND));
-    is_straight.select(bytes * STRAIGHT, light)
+    let is_straight = values.simd_le(f32x16::splat(simd, bend));
+    is_straight.select(values * straight, light)
 }
 
 /// The stored values of such light, in bytes, and how far they may be off where light is `off` by so much.
@@ -229,8 +252,7 @@ fn light_of_four<S: Simd>(simd: S, samples: [Premultiplied16; 4]) -> f32x16<S> {
     let stored = samples.map(|sample| sample.0);
     let (low, high) = u16x16::from_slice(simd, stored.as_flattened()).widen();
     let stored: i32x16<S> = low.combine(high).bitcast();
-    let bytes = stored.to_float::<f32x16<S>>() * (1.0 / f32::from(Premultiplied16::PER_BYTE));
-    near_light(simd, bytes)
+    near_light_of_stored(simd, stored.to_float())
 }
 
 #[cfg(test)]

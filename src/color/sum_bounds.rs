@@ -14,8 +14,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, f64x8, u64x8};
 
-use super::light::ONE_LIGHT;
-use super::near_light::{LIGHT_OFF, near_light};
+use super::light::{ALL_LIGHT, ONE_LIGHT};
+use super::near_light::{LIGHT_OFF, near_light_of_stored};
 use super::value_spread::PIXELS;
 use super::{Light, Premultiplied16, SampleMean};
 
@@ -34,7 +34,7 @@ impl SumBounds {
     pub(crate) fn unknown(count: u32, mean: &SampleMean) -> Self {
         let one = match mean {
             SampleMean::Stored(_) => u64::from(Premultiplied16::ONE),
-            SampleMean::Linear(resolver) => u64::from(resolver.of_stored()[usize::from(Premultiplied16::ONE)]),
+            SampleMean::Linear(_) => ALL_LIGHT,
         };
         Self {
             least: [0; 3],
@@ -102,8 +102,10 @@ pub(crate) fn sums_between<S: Simd>(
 /// The light of values, in units of [`Premultiplied16`], but for [`LIGHT_OFF`]; nothing lies beyond black and white.
 #[inline(always)]
 fn light_at<S: Simd>(simd: S, values: f32x16<S>) -> f32x16<S> {
-    let bytes = values.max(f32x16::splat(simd, 0.0)) * (1.0 / f32::from(Premultiplied16::PER_BYTE));
-    near_light(simd, bytes.min(f32x16::splat(simd, 255.0)))
+    let inside = values
+        .max(f32x16::splat(simd, 0.0))
+        .min(f32x16::splat(simd, f32::from(Premultiplied16::ONE)));
+    near_light_of_stored(simd, inside)
 }
 
 /// The sums of `counts` numbers whose means are these, in parts of one, rounded down.

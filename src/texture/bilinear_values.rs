@@ -18,7 +18,7 @@ use super::nearest_samples::ones;
 use super::nearest_values::{ByteValues, ValueList};
 use super::sample_blocks::{BlockAxis, Blocks, Inside, LANES, Steps, halves, is_in_doubt, is_near, number};
 use super::{PixelSampling, Wrap, sample_filter};
-use crate::color::{NearLight, Premultiplied16, near_light};
+use crate::color::{NearLight, Premultiplied16, near_light_of_stored};
 use crate::simd::put_lanes;
 
 /// Fewer samples do not fill a vector well enough.
@@ -90,7 +90,7 @@ impl<'w> BilinearList<'w> {
 
     #[inline(always)]
     fn light_pixels_with<S: Simd>(self, simd: S, near: &NearLight<'_>, pixels: &mut [u32]) -> bool {
-        if S::u32s::LEN != LANES {
+        if !has_blocks(simd) {
             return false;
         }
         let (mut scratch, mut open) = (Scratch::NEW, Vec::new());
@@ -110,7 +110,7 @@ impl<'w> BilinearList<'w> {
 
     #[inline(always)]
     fn sums_with<S: Simd>(self, simd: S, sums: &mut [[u64; 3]]) -> bool {
-        if S::u32s::LEN != LANES {
+        if !has_blocks(simd) {
             return false;
         }
         let (mut scratch, mut open) = (Scratch::NEW, Vec::new());
@@ -208,7 +208,6 @@ impl<'w> BilinearList<'w> {
             lane_count += 1;
         }
         let lanes = &lanes[..lane_count];
-        *sums = [[[0.0; LANES]; LANES]; 3];
         for vector in (0..self.list.count).step_by(LANES) {
             let mut steps = self.steps(simd, 0, vector);
             for i in lanes {
@@ -234,7 +233,11 @@ impl<'w> BilinearList<'w> {
                     let value = value::<S, IS_LIGHT>(simd, i32x16::load_array_ref(simd, &read[*i]));
                     let there = mask32x16::from_bitmask(simd, there[*i]);
                     let counting = there.select(value, f32x16::splat(simd, 0.0));
-                    let sum = f32x16::load_array_ref(simd, &sums[*i]) + counting;
+                    let sum = if vector == 0 {
+                        counting
+                    } else {
+                        f32x16::load_array_ref(simd, &sums[*i]) + counting
+                    };
                     sum.store_array(&mut sums[*i]);
                 }
             }
@@ -296,6 +299,12 @@ impl Scratch {
     };
 }
 
+/// Whether a vector holds the block of texels that samples of a pixel read.
+#[inline(always)]
+fn has_blocks<S: Simd>(_: S) -> bool {
+    S::u32s::LEN == LANES
+}
+
 /// A bit for each of so many samples of a vector.
 #[inline(always)]
 fn first_bits(count: usize) -> u64 {
@@ -308,7 +317,7 @@ fn value<S: Simd, const IS_LIGHT: bool>(simd: S, sums: i32x16<S>) -> f32x16<S> {
     let stored = (sums + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT;
     let value: f32x16<S> = stored.to_float();
     if IS_LIGHT {
-        near_light(simd, value * (1.0 / f32::from(Premultiplied16::PER_BYTE)))
+        near_light_of_stored(simd, value)
     } else {
         value
     }
@@ -366,6 +375,12 @@ mod tests {
             .collect()
     }
 
+    /// Some of so many samples of each of so many pixels, where masks have bits for them.
+    fn masks(u: &mut Unstructured<'_>, count: usize, pixels: usize) -> Result<Option<Vec<u64>>> {
+        let all = (0..pixels).map(|_| u.arbitrary()).collect::<Result<_>>()?;
+        Ok((count <= 64).then_some(all))
+    }
+
     #[test]
     fn sums_and_light_are_those_of_samples_one_by_one() {
         let (mut found, mut in_blocks) = (0, 0);
@@ -403,9 +418,7 @@ mod tests {
                 let points = list.points(pixel);
                 points.map(|at| oracle::point(&plan, at.map(u32::from))).collect()
             };
-            let masks = (count <= 64)
-                .then(|| places.iter().map(|_| u.arbitrary()).collect::<Result<Vec<u64>>>())
-                .transpose()?;
+            let masks = masks(u, count, places.len())?;
             let resolver = LightResolver::new(u32::try_from(count).expect("few"), Rules::Standard);
             for (name, level) in simd::tested() {
                 let (mut sums, mut pixels) = (vec![[0; 3]; places.len()], vec![0; places.len()]);
@@ -413,24 +426,7 @@ mod tests {
                     continue;
                 }
                 if let Some(masks) = &masks {
-                    let list = BilinearList {
-                        list: ValueList {
-                            masks: Some(masks),
-                            ..list.list
-                        },
-                        ..list
-                    };
-                    let mut of_some = vec![[0; 3]; places.len()];
-                    assert!(list.sums(level, &mut of_some), "{name}");
-                    for (i, sum) in of_some.into_iter().enumerate() {
-                        let samples = samples(i).into_iter().enumerate();
-                        let some: Vec<_> = samples
-                            .filter(|(j, _)| masks[i] >> j & 1 == 1)
-                            .map(|(_, color)| color)
-                            .collect();
-                        let [r, g, b, _] = Premultiplied16::sums(&some);
-                        assert_eq!(sum, [r, g, b].map(u64::from), "{name}: {:b} of {i}", masks[i]);
-                    }
+                    parts_are_those_of_samples(level, (list, masks), &samples);
                 }
                 found += 1;
                 in_blocks += dispatch!(level, simd => known(simd, list)).count_ones();
@@ -442,11 +438,8 @@ mod tests {
                         [r, g, b].map(u64::from),
                         "{name}: {i} of {filter:?} {grid:?} {inside:?}"
                     );
-                    assert_eq!(
-                        pixel,
-                        resolver.opaque_mean(&samples),
-                        "{name}: {i} of {filter:?} {grid:?}"
-                    );
+                    let expected = resolver.opaque_mean(&samples);
+                    assert_eq!(pixel, expected, "{name}: {i} of {filter:?} {grid:?}");
                 }
             }
             Ok(())
@@ -458,6 +451,32 @@ mod tests {
             in_blocks >= found * 5,
             "{in_blocks} pixels of {found} lists lay in blocks"
         );
+    }
+
+    /// Compares what parts of pixels add up to with the samples of these pixels.
+    fn parts_are_those_of_samples(
+        level: Level,
+        (list, masks): (BilinearList<'_>, &[u64]),
+        samples: &impl Fn(usize) -> Vec<Premultiplied16>,
+    ) {
+        let list = BilinearList {
+            list: ValueList {
+                masks: Some(masks),
+                ..list.list
+            },
+            ..list
+        };
+        let mut sums = vec![[0; 3]; masks.len()];
+        assert!(list.sums(level, &mut sums), "parts where wholes are found");
+        for (i, sum) in sums.into_iter().enumerate() {
+            let named = samples(i)
+                .into_iter()
+                .enumerate()
+                .filter(|(j, _)| masks[i] >> j & 1 == 1);
+            let part: Vec<_> = named.map(|(_, color)| color).collect();
+            let [r, g, b, _] = Premultiplied16::sums(&part);
+            assert_eq!(sum, [r, g, b].map(u64::from), "{:b} of pixel {i}", masks[i]);
+        }
     }
 
     /// A bit for each of the first pixels of a list whose samples were not shaded one by one.

@@ -13,6 +13,7 @@ mod by_samples;
 pub(in crate::raster) mod flat_light;
 mod flat_resolve;
 mod fragment_points;
+mod fragment_sums;
 mod fragments;
 mod known_pixels;
 mod layer_end;

@@ -6,6 +6,8 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
+use std::ops::Range;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x16, u16x32, u32x16};
 
@@ -119,6 +121,16 @@ impl TintedPlanes {
             limits,
         }
     }
+}
+
+/// The lists of up to [`PIXELS`] of so many pixels, and how many of each were in the one before: where there are enough, the last one begins
+/// earlier rather than to be short.
+#[inline(always)]
+pub(super) fn blocks(pixels: usize) -> impl Iterator<Item = (Range<usize>, usize)> {
+    (0..pixels).step_by(PIXELS).map(move |next| {
+        let first = next.min(pixels.saturating_sub(PIXELS));
+        (first..pixels.min(first + PIXELS), next - first)
+    })
 }
 
 /// How many columns and rows from the first one the farthest of some pixels are.

@@ -9,6 +9,8 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
+use std::ops::Range;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f32x16};
 
@@ -18,12 +20,14 @@ use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::{BoundedPixels, Pixels, PlacedPixels};
 use crate::raster::shading::kind::Shade;
-use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes, number};
+use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes, blocks, number};
 use crate::rules::Rules;
 use crate::simd;
 
 /// The most samples that are shaded together: those of one pixel, or of some pixels that have fewer.
 const MOST_SAMPLES: usize = SampleRate::MAX as usize;
+/// Most pixels have no more, and few are open in a list: clearing memory for more takes as long as to shade them.
+const FEW_SAMPLES: usize = 16;
 
 /// Opaque colours in planes.
 #[derive(Clone, Copy)]
@@ -80,8 +84,8 @@ fn means_with<S: Simd>(
     let reach = f64::from(placed.pixels.grid.side - 1);
     let near = TintedPlanes::new(colors.planes, placed.tints).near(placed.pixels, known, reach);
     let (mut spread, mut open) = (PlaceSpreads::of_each(simd, &same), Vec::new());
-    for (block, values) in values.chunks_mut(PIXELS).enumerate() {
-        let range = block * PIXELS..block * PIXELS + values.len();
+    for (range, known) in blocks(values.len()) {
+        let values = &mut values[range.clone()];
         let means = if placed.are_same() {
             None
         } else if is_linear {
@@ -111,7 +115,7 @@ fn means_with<S: Simd>(
             },
         );
         simd::put_lanes(pixels, values);
-        open.extend(lanes_without(certain, values.len()).map(|i| range.start + i));
+        open.extend(lanes_without(certain, known..values.len()).map(|i| range.start + i));
     }
     if !open.is_empty() {
         by_samples(colors.shade, placed, &open, mean, values);
@@ -129,8 +133,8 @@ fn bounded_with<S: Simd>(
     let Pixels { grid, places } = bounded.pixels;
     let reach = f64::from(grid.side * (2 * bounded.margin + 1) - 1);
     let near = shown.near(bounded.pixels, [middle; 2], reach);
-    let blocks = values.chunks_mut(PIXELS).zip(places.chunks(PIXELS));
-    for (block, (values, places)) in blocks.enumerate() {
+    for (range, known) in blocks(values.len()) {
+        let (values, places) = (&mut values[range.clone()], &places[range.clone()]);
         let (pixels, certain) = near.pixels(
             near.columns_and_rows(simd, places),
             None,
@@ -150,14 +154,14 @@ fn bounded_with<S: Simd>(
             },
         );
         simd::put_lanes(pixels, values);
-        open.extend(lanes_without(certain, values.len()).map(|i| block * PIXELS + i));
+        open.extend(lanes_without(certain, known..values.len()).map(|i| range.start + i));
     }
 }
 
-/// Of the first lanes, so many of them, those that have no bit.
+/// Of some lanes those that have no bit.
 #[inline(always)]
-fn lanes_without(bits: u64, count: usize) -> impl Iterator<Item = usize> {
-    let mut rest = !bits & ((1 << count) - 1);
+fn lanes_without(bits: u64, lanes: Range<usize>) -> impl Iterator<Item = usize> {
+    let mut rest = !bits & ((1 << lanes.end) - 1) & (u64::MAX << lanes.start);
     std::iter::from_fn(move || {
         let lane = rest.trailing_zeros() as usize;
         let is_one = rest != 0;
@@ -181,13 +185,28 @@ fn mean_places<S: Simd>(simd: S, placed: PlacedPixels<'_>) -> [f32x16<S>; 2] {
 }
 
 /// The pixels of these numbers, from each of their samples.
-#[inline(never)]
 fn by_samples(shade: &dyn Shade, placed: PlacedPixels<'_>, open: &[usize], mean: &SampleMean, values: &mut [u32]) {
+    if placed.count <= FEW_SAMPLES {
+        by_some_samples::<{ 4 * FEW_SAMPLES }>(shade, placed, open, mean, values);
+    } else {
+        by_some_samples::<MOST_SAMPLES>(shade, placed, open, mean, values);
+    }
+}
+
+/// The same, up to `MOST` samples at once.
+#[inline(never)]
+fn by_some_samples<const MOST: usize>(
+    shade: &dyn Shade,
+    placed: PlacedPixels<'_>,
+    open: &[usize],
+    mean: &SampleMean,
+    values: &mut [u32],
+) {
     let Pixels { grid, places } = placed.pixels;
     let side = u16::try_from(grid.side).unwrap_or(u16::MAX);
-    let (mut points, mut colors) = ([[0; 2]; MOST_SAMPLES], [Premultiplied16::TRANSPARENT; MOST_SAMPLES]);
+    let (mut points, mut colors) = ([[0; 2]; MOST], [Premultiplied16::TRANSPARENT; MOST]);
     let mut pixels = [0; PIXELS];
-    let together = (MOST_SAMPLES / placed.count.max(1)).clamp(1, PIXELS);
+    let together = (MOST / placed.count.max(1)).clamp(1, PIXELS);
     for open in open.chunks(together) {
         for (i, points) in open.iter().zip(points.chunks_exact_mut(placed.count)) {
             for (point, inside) in points.iter_mut().zip(placed.inside(*i)) {

@@ -22,7 +22,7 @@ use crate::color::{PIXELS, SampleMean, SumBounds, sums_between};
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::place_sums::PlaceSums;
 use crate::raster::shading::context::PlacedParts;
-use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes};
+use crate::raster::shading::near_planes::{PlaceSpreads, TintedPlanes, blocks};
 use crate::raster::shading::plane_means::PlaneColors;
 use crate::simd;
 
@@ -51,11 +51,18 @@ fn bounds_with<S: Simd, const IS_LINEAR: bool>(
 ) {
     let reach = f64::from(parts.pixels.grid.side - 1);
     let near = TintedPlanes::new(planes, parts.tints).near(parts.pixels, [0.0; 2], reach);
-    for (block, bounds) in bounds.chunks_mut(PIXELS).enumerate() {
-        let range = block * PIXELS..block * PIXELS + bounds.len();
-        let mut sums = [PlaceSums::default(); PIXELS];
-        sums[..bounds.len()].copy_from_slice(&parts.sums[range.clone()]);
-        let spread = PlaceSpreads::new(simd, &sums);
+    for (range, _) in blocks(bounds.len()) {
+        let (of_block, bounds) = (&parts.sums[range.clone()], &mut bounds[range.clone()]);
+        let mut few = [PlaceSums::default(); PIXELS];
+        let sums = if let Some(sums) = of_block.first_chunk() {
+            sums
+        } else {
+            for (few, sums) in few.iter_mut().zip(of_block) {
+                *few = *sums;
+            }
+            &few
+        };
+        let spread = PlaceSpreads::new(simd, sums);
         let at = near.columns_and_rows(simd, &parts.pixels.places[range]);
         let (mut ends, mut certain) = ([[[0; PIXELS]; 2]; 3], u64::MAX);
         for (k, ends) in ends.iter_mut().enumerate() {
@@ -68,7 +75,7 @@ fn bounds_with<S: Simd, const IS_LINEAR: bool>(
             certain &= of_channel;
             *ends = sums_between(simd, found, spread.counts, mean);
         }
-        for (i, (bounds, PlaceSums { count, .. })) in bounds.iter_mut().zip(&sums).enumerate() {
+        for (i, (bounds, PlaceSums { count, .. })) in bounds.iter_mut().zip(sums).enumerate() {
             let [r, g, b] = &ends;
             *bounds = if certain >> i & 1 == 1 {
                 SumBounds {

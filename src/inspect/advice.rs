@@ -96,7 +96,7 @@ impl Explanation {
                 let is_of_course = cure.setting == Setting::Rules && question.subject.scene.dialect == Dialect::Course;
                 cure.dialect = is_of_course.then_some(Dialect::Course.name());
             }
-            if truth.cures.iter().any(|cure| cure.setting == Setting::SampleRate) {
+            if !truth.cures.is_empty() {
                 truth.causes = self.causes(nearby, settings, &truth);
             }
         }

@@ -199,8 +199,7 @@ impl Explanation {
         })
     }
 
-    /// That the colour of the topmost primitive was computed once for the pixel, and where, if `cure` computes it at each sample or
-    /// elsewhere.
+    /// That the colour which is wrong was computed once for the pixel, and where, if `cure` computes it at each sample or elsewhere.
     fn shaded_elsewhere(&self, cure: &Cure) -> Option<String> {
         /// Weights of places on an edge are zero but for rounding.
         const OUTSIDE: f64 = -1e-9;
@@ -208,7 +207,8 @@ impl Explanation {
             View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < OUTSIDE),
             View::Polygon { .. } => false,
         };
-        let (paint, named) = (self.topmost()?, self.topmost_numbered()?);
+        let number = self.truth.as_ref()?.causes.off_color?;
+        let (paint, named) = (self.paints.get(number)?, self.numbered(number));
         let extrapolates = paint.is_shaded_in_centre()? && paint.views.first().is_some_and(is_outside);
         if extrapolates {
             return Some(format!(

@@ -1,13 +1,14 @@
 //! What the distance of a pixel from the truth comes of: for each cause how far the truth's samples that show it account for it.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::advice::distance;
 use super::explanation::Question;
-use super::model::{Causes, Explanation, Missed, MissedCause, Truth};
+use super::model::{Causes, Explanation, Missed, MissedCause, Paint, Truth};
+use super::resolve::levels;
 use super::seen::seen_fragments;
 use crate::color::Premultiplied16;
-use crate::raster::ShadingRate;
+use crate::raster::{PaintedKind, PixelReplay, ShadingRate};
 use crate::render::{self, Nearby, RenderSettings, Subject};
 
 /// Levels by which colours differ so much that it can be seen.
@@ -17,6 +18,7 @@ const SEEN: u16 = 4;
 struct TrueSamples<'a> {
     nearby: &'a Nearby<'a>,
     settings: RenderSettings,
+    replay: PixelReplay,
     shown: Vec<Premultiplied16>,
 }
 
@@ -32,12 +34,26 @@ impl<'a> TrueSamples<'a> {
     /// Those of the truth about what is drawn with these settings; `None` outside the picture.
     fn new(nearby: &'a Nearby<'a>, own: &RenderSettings) -> Option<Self> {
         let settings = own.truth();
-        let shown = nearby.samples(&settings)?;
+        let replay = nearby.replay(&settings)?;
         Some(Self {
             nearby,
             settings,
-            shown,
+            shown: replay.samples.iter().map(|sample| sample.color).collect(),
+            replay,
         })
+    }
+
+    /// The colours that each primitive has where it is seen.
+    fn shades(&self) -> BTreeMap<u32, Vec<[f64; 4]>> {
+        let mut shades: BTreeMap<u32, Vec<[f64; 4]>> = BTreeMap::new();
+        for (op, seen) in self.replay.painted.iter().zip(seen_fragments(&self.replay)) {
+            if op.kind == PaintedKind::Primitive {
+                let seen = op.fragments.iter().zip(seen).filter(|(_, seen)| *seen);
+                let colors = seen.map(|(fragment, _)| levels(fragment.color));
+                shades.entry(op.source).or_default().extend(colors);
+            }
+        }
+        shades
     }
 
     /// Which of them show any of some primitives: differ to see without these. `None` where there are no primitives.
@@ -93,7 +109,37 @@ impl Explanation {
             missed: missed(&|_| true).unwrap_or_default(),
             topmost: self.topmost_cause(&samples, truth).unwrap_or(0.0),
             textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
+            off_color: self.off_color(&samples),
         }
+    }
+
+    /// The paint whose colour is farthest from its true one, counted by the part of the pixel that it shows.
+    fn off_color(&self, samples: &TrueSamples<'_>) -> Option<usize> {
+        /// Less is rounding.
+        const LEAST: f64 = 1.0;
+        let number = |primitive: u32| {
+            let is_it = |paint: &Paint| paint.primitive == primitive && paint.is_seen();
+            self.paints.iter().rposition(is_it)
+        };
+        let seen = |primitive: u32| {
+            let paints = self.paints.iter().filter(move |paint| paint.primitive == primitive);
+            let seen = paints
+                .flat_map(|paint| &paint.fragments)
+                .filter(|fragment| fragment.seen);
+            seen.map(|fragment| fragment.color).collect::<Vec<_>>()
+        };
+        let off = |primitive: u32, shades: &[[f64; 4]]| {
+            let (own, shown) = (mean(&seen(primitive))?, mean(shades)?);
+            let apart = own.iter().zip(shown).map(|(own, shown)| (own - shown).abs());
+            let part = shades.len() as f64 / samples.shown.len().max(1) as f64;
+            Some(apart.fold(0.0, f64::max) * part)
+        };
+        let shades = samples.shades();
+        let all = shades
+            .iter()
+            .filter_map(|(primitive, shades)| Some((*primitive, off(*primitive, shades)?)));
+        let (primitive, most) = all.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        number(primitive).filter(|_| most >= LEAST)
     }
 
     /// What some primitives that no sample meets account for: the rest of the truth, if it is what the pixel shows. `None` where
@@ -179,6 +225,12 @@ impl Explanation {
             missed.shown = count.map(|count| (*count as f64 / replay.samples.len().max(1) as f64).min(1.0));
         }
     }
+}
+
+/// `None` of nothing.
+fn mean(colors: &[[f64; 4]]) -> Option<[f64; 4]> {
+    let sum = |channel: usize| colors.iter().map(|color| color[channel]).sum::<f64>();
+    (!colors.is_empty()).then(|| [0, 1, 2, 3].map(|channel| sum(channel) / colors.len() as f64))
 }
 
 /// The pixel, straight red, green, blue, alpha.

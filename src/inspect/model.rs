@@ -165,6 +165,8 @@ pub struct Causes {
     pub topmost: f64,
     /// Textures that differ within the pixel.
     pub textures: f64,
+    /// The paint whose colour is farthest from its true one: that one's texture, or the place where it is shaded, is the reason.
+    pub off_color: Option<usize>,
 }
 
 /// What the samples miss.

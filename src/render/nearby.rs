@@ -12,7 +12,7 @@ use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settin
 use crate::color::Premultiplied16;
 use crate::geometry::ViewTransform;
 use crate::post;
-use crate::raster::{ChunkBuilder, DisplayList, ListContext, SizedFilter};
+use crate::raster::{ChunkBuilder, DisplayList, ListContext, PixelReplay, SizedFilter};
 use crate::scene::{Composite, PrimitiveKind, Scene};
 
 /// How far from the pixel a primitive may lie and yet paint it, in pixels: the pixel takes samples of its neighbours, corners
@@ -100,9 +100,14 @@ impl<'a> Nearby<'a> {
     /// The colours of the pixel's own samples with these settings, in the order of their pattern; `None` where it lies outside the
     /// frame.
     pub fn samples(&self, settings: &RenderSettings) -> Option<Vec<Premultiplied16>> {
-        let [x, y] = self.pixel;
-        let replay = self.list(&self.primitives, settings).replay(x, y)?;
+        let replay = self.replay(settings)?;
         Some(replay.samples.into_iter().map(|sample| sample.color).collect())
+    }
+
+    /// What painted the pixel's own samples with these settings; `None` where it lies outside the frame.
+    pub fn replay(&self, settings: &RenderSettings) -> Option<PixelReplay> {
+        let [x, y] = self.pixel;
+        self.list(&self.primitives, settings).replay(x, y)
     }
 
     /// Whether any of the pixel's own samples lies in a primitive, given by its index, wherever that counts.

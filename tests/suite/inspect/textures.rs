@@ -2,7 +2,7 @@
 
 use rasterscope::color::ResolveSpace;
 use rasterscope::inspect::{Cure, Explanation, Setting};
-use rasterscope::raster::{PixelCoverage, SampleRate};
+use rasterscope::raster::{PixelCoverage, SampleRate, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::scene::{self, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, FixedLevel, LevelSampling, LodBias};
@@ -21,11 +21,16 @@ fn with(samples: u32, level_sampling: LevelSampling) -> RenderSettings {
 /// A texture of the gallery over 8 x 8 pixels, of which one holds so many copies of it in width and in height; the point (0, 0) of the
 /// texture lies in the middle.
 fn textured(name: &str, copies: f64) -> Scene {
+    textured_below(name, copies, "")
+}
+
+/// The same below something else.
+fn textured_below(name: &str, copies: f64, above: &str) -> Scene {
     let (low, high) = (-4.0 * copies, 12.0 * copies);
     let document = format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">
         <texture texid="map" filename="../../assets/textures/{name}"/>
-        <textri texid="map" uvs="{low} {low} {high} {low} {low} {high}" points="0,0 16,0 0,16"/></svg>"#
+        <textri texid="map" uvs="{low} {low} {high} {low} {low} {high}" points="0,0 16,0 0,16"/>{above}</svg>"#
     );
     scene::read(document.as_bytes(), "textured.svg", ReadOptions::default(), &Textures).unwrap()
 }
@@ -219,5 +224,22 @@ fn a_fixed_level_of_detail_tells_its_bias() {
     ] {
         let told = told(bias);
         assert!(told.starts_with(expected), "{told}");
+    }
+}
+
+/// The strip on top has one colour, wherever it is shaded; what is wrong is the texture below it.
+#[test]
+fn what_is_shaded_once_is_named_by_whose_colour_is_wrong() {
+    let strip = r#"<colortri points="-4,4.7 20,4.7 20,5.4" colors="1 0.9 0 1 1 0.9 0 1 1 0.9 0 1"/>"#;
+    let scene = textured_below("checker.png", 0.3, strip);
+    for shading in [ShadingRate::Centre, ShadingRate::Centroid] {
+        let settings = RenderSettings {
+            shading,
+            ..with(16, LevelSampling::Zero)
+        };
+        let told = hints(&advised(&scene, &settings, [8, 8], [5, 4]));
+        let expected = "For the whole pixel 1 (triangle of textri, line 3) is shaded once, not at each of its samples. Shading per";
+        assert!(told.contains(expected), "{shading:?}: {told}");
+        assert!(!told.contains("extrapolated"), "{shading:?}: {told}");
     }
 }

@@ -57,14 +57,10 @@ impl Explanation {
     /// What is wrong with this pixel that a setting cures.
     fn reason(&self, cure: &Cure) -> Option<String> {
         match cure.setting {
-            Setting::SampleRate => self
-                .missed_parts(cure)
-                .or_else(|| self.thin_topmost(cure))
-                .or_else(|| self.wrong_coverage(cure))
-                .or_else(|| self.texels_between(cure)),
+            Setting::SampleRate => self.coverage_reason(cure).or_else(|| self.texels_between(cure)),
             Setting::LevelSampling => self.level_sampling_reason(cure),
-            Setting::Anisotropy => self.topmost_texture()?.1.blurred_across(),
-            Setting::PixelSampling => self.topmost_texture()?.1.single_texels(self.exact),
+            Setting::Anisotropy => self.wrong_texture()?.1.blurred_across(),
+            Setting::PixelSampling => self.wrong_texture()?.1.single_texels(self.exact),
             Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
             Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),
             Setting::LodPer => self
@@ -72,7 +68,7 @@ impl Explanation {
                 .find_map(Texture::of_whole_pixel)
                 .map(str::to_owned),
             Setting::Pyramid => self.pyramid_reason(cure),
-            Setting::PyramidFilter => match self.topmost_texture()?.1.filtered_by() {
+            Setting::PyramidFilter => match self.wrong_texture()?.1.filtered_by() {
                 PyramidFilter::Box => None,
                 PyramidFilter::Tent => {
                     Some("Each texel of a mip level holds an eighth of those beside its own.".to_owned())
@@ -81,7 +77,7 @@ impl Explanation {
                     Some("The Kaiser filter of the mip levels overshoots beside edges.".to_owned())
                 }
             },
-            Setting::LodBy => self.topmost_texture().map(|(_, texture)| {
+            Setting::LodBy => self.wrong_texture().map(|(_, texture)| {
                 format!(
                     "The level of detail follows {} of the footprint, and its longer side reaches further.",
                     texture.extent_words()
@@ -126,6 +122,15 @@ impl Explanation {
     fn is_less_than_apart(&self, width: f64) -> bool {
         const SNAPPED: f64 = 0.99;
         width < self.step() * SNAPPED
+    }
+
+    /// What is wrong with what is covered, if most of what a setting brings comes of that.
+    fn coverage_reason(&self, cure: &Cure) -> Option<String> {
+        let covered = self.truth.as_ref()?.causes.coverage;
+        (covered >= cure.nearer * MOSTLY).then_some(())?;
+        self.missed_parts(cure)
+            .or_else(|| self.thin_topmost(cure))
+            .or_else(|| self.wrong_coverage(cure))
     }
 
     /// What the samples miss, if most of what a setting brings comes of it.

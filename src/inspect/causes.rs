@@ -104,25 +104,39 @@ impl Explanation {
             shading: ShadingRate::Centre,
             ..samples.settings
         };
+        let sampled = RenderSettings {
+            sample_rate: own.sample_rate,
+            pattern: own.pattern,
+            coverage: own.coverage,
+            rules: own.rules,
+            ..once
+        };
+        let (once, sampled) = (color(nearby, &once), color(nearby, &sampled));
         Causes {
+            coverage: sampled.zip(once).map_or(0.0, |(sampled, once)| distance(sampled, once)),
             thin: missed(&|missed| self.is_thin(missed)).unwrap_or_default(),
             missed: missed(&|_| true).unwrap_or_default(),
             topmost: self.topmost_cause(&samples, truth).unwrap_or(0.0),
-            textures: color(nearby, &once).map_or(0.0, |once| distance(once, truth.color)),
-            off_color: self.off_color(&samples),
+            textures: once.map_or(0.0, |once| distance(once, truth.color)),
+            off_color: self.off_color(&samples, |_| true),
+            off_texture: self.off_color(&samples, |paint| paint.texture.is_some()),
         }
     }
 
-    /// The paint whose colour is farthest from its true one, counted by the part of the pixel that it shows.
-    fn off_color(&self, samples: &TrueSamples<'_>) -> Option<usize> {
+    /// The paint, of those that are one of these, whose colour is farthest from its true one, counted by the part of the pixel that
+    /// shows it.
+    fn off_color(&self, samples: &TrueSamples<'_>, is_one: fn(&Paint) -> bool) -> Option<usize> {
         /// Less is rounding.
         const LEAST: f64 = 1.0;
         let number = |primitive: u32| {
-            let is_it = |paint: &Paint| paint.primitive == primitive && paint.is_seen();
+            let is_it = |paint: &Paint| paint.primitive == primitive && paint.is_seen() && is_one(paint);
             self.paints.iter().rposition(is_it)
         };
         let seen = |primitive: u32| {
-            let paints = self.paints.iter().filter(move |paint| paint.primitive == primitive);
+            let paints = self
+                .paints
+                .iter()
+                .filter(move |paint| paint.primitive == primitive && is_one(paint));
             let seen = paints
                 .flat_map(|paint| &paint.fragments)
                 .filter(|fragment| fragment.seen);

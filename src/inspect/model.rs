@@ -163,10 +163,14 @@ pub struct Causes {
     pub missed: MissedCause,
     /// The topmost primitive that is seen.
     pub topmost: f64,
+    /// How much of the pixel each primitive covers, as if each had one colour in it.
+    pub coverage: f64,
     /// Textures that differ within the pixel.
     pub textures: f64,
-    /// The paint whose colour is farthest from its true one: that one's texture, or the place where it is shaded, is the reason.
+    /// The paint whose colour is farthest from its true one: the place where it is shaded is the reason.
     pub off_color: Option<usize>,
+    /// The same of those that read textures.
+    pub off_texture: Option<usize>,
 }
 
 /// What the samples miss.

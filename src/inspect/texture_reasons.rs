@@ -19,9 +19,12 @@ const BLURS: f64 = 2.0;
 const LEAVES_OUT: f64 = 2.0;
 
 impl Explanation {
-    /// The topmost primitive that is seen, and the texture that it reads.
-    pub(super) fn topmost_texture(&self) -> Option<(&Paint, &Texture)> {
-        let paint = self.topmost()?;
+    /// The primitive with a texture whose colour is farthest from its true one, or else the topmost that is seen, and that texture.
+    pub(super) fn wrong_texture(&self) -> Option<(&Paint, &Texture)> {
+        let off = self.truth.as_ref().and_then(|truth| truth.causes.off_texture);
+        let paint = off
+            .and_then(|number| self.paints.get(number))
+            .or_else(|| self.topmost())?;
         Some((paint, paint.texture.as_ref()?))
     }
 
@@ -38,7 +41,7 @@ impl Explanation {
 
     /// Why other levels, or an area, are better.
     pub(super) fn level_sampling_reason(&self, cure: &Cure) -> Option<String> {
-        let (paint, texture) = self.topmost_texture()?;
+        let (paint, texture) = self.wrong_texture()?;
         if cure.value == LevelSampling::Zero.name() {
             return Some(self.close_enough(paint, texture));
         }
@@ -117,7 +120,7 @@ impl Explanation {
 
     /// That samples lie too far apart to read all texels.
     pub(super) fn texels_between(&self, cure: &Cure) -> Option<String> {
-        let (paint, texture) = self.topmost_texture()?;
+        let (paint, texture) = self.wrong_texture()?;
         if paint.shaded_at.is_some() {
             // One place is read, however many samples there are.
             return None;

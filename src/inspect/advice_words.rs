@@ -59,7 +59,7 @@ impl Explanation {
         match cure.setting {
             Setting::SampleRate => self.coverage_reason(cure).or_else(|| self.texels_between(cure)),
             Setting::LevelSampling => self.level_sampling_reason(cure),
-            Setting::Anisotropy => self.wrong_texture()?.1.blurred_across(),
+            Setting::Anisotropy => self.blurred_or_few(cure),
             Setting::PixelSampling => self.wrong_texture()?.1.single_texels(self.exact),
             Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
             Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),

@@ -10,6 +10,7 @@ use super::seen::seen_fragments;
 use crate::color::Premultiplied16;
 use crate::raster::{PaintedKind, PixelReplay, ShadingRate};
 use crate::render::{self, Nearby, RenderSettings, Subject};
+use crate::texture::Derivatives;
 
 /// Levels by which colours differ so much that it can be seen.
 const SEEN: u16 = 4;
@@ -118,6 +119,7 @@ impl Explanation {
             missed: missed(&|_| true).unwrap_or_default(),
             topmost: self.topmost_cause(&samples, truth).unwrap_or(0.0),
             textures: once.map_or(0.0, |once| distance(once, truth.color)),
+            averaging: color(nearby, &read_as(own)).map_or(0.0, |often| distance(often, truth.color)),
             off_color: self.off_color(&samples, |_| true),
             off_texture: self.off_color(&samples, |paint| paint.texture.is_some()),
         }
@@ -238,6 +240,24 @@ impl Explanation {
             let count = shown.get(&missed.primitive);
             missed.shown = count.map(|count| (*count as f64 / replay.samples.len().max(1) as f64).min(1.0));
         }
+    }
+}
+
+/// The truth, but for textures, of which each sample reads what the picture's samples do.
+fn read_as(own: &RenderSettings) -> RenderSettings {
+    let (rate, mut detail) = (own.in_effect().sample_rate, own.detail);
+    if detail.derivatives == Derivatives::Sample {
+        let finer = f64::from(own.pattern.nearest(rate).samples()).log2() / 2.0;
+        detail.derivatives = Derivatives::Pixel;
+        detail.bias = detail.bias.stepped(-finer);
+    }
+    RenderSettings {
+        level_sampling: own.level_sampling,
+        pyramid: own.pyramid,
+        pyramid_filter: own.pyramid_filter,
+        anisotropy: own.anisotropy,
+        detail,
+        ..own.truth()
     }
 }
 

@@ -167,6 +167,8 @@ pub struct Causes {
     pub coverage: f64,
     /// Textures that differ within the pixel.
     pub textures: f64,
+    /// What levels and taps average before it is read: as many samples as the truth has of them are as far from it.
+    pub averaging: f64,
     /// The paint whose colour is farthest from its true one: the place where it is shaded is the reason.
     pub off_color: Option<usize>,
     /// The same of those that read textures.

@@ -7,11 +7,11 @@ use glam::DVec2;
 
 use super::advice_words::MOSTLY;
 use super::area_use::AreaUse;
-use super::model::{Cure, Explanation, Interpolated, Paint, Texture, View};
-use super::numbers::{number, significant};
+use super::model::{Cure, Explanation, Interpolated, Paint, Texel, Texture, View};
+use super::numbers::{counted, number, significant};
 use crate::color::ResolveSpace;
 use crate::geometry::area_in_pixel;
-use crate::texture::{LevelSampling, Wrap};
+use crate::texture::{LevelSampling, PixelSampling, Wrap};
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;
@@ -45,8 +45,30 @@ impl Explanation {
         if cure.value == LevelSampling::Zero.name() {
             return Some(self.close_enough(paint, texture));
         }
-        let blurred = || cure.weighs_area().then(|| texture.blurred_across()).flatten();
+        let blurred = || cure.weighs_area().then(|| self.blurred_or_few(cure)).flatten();
         self.few_of_many(paint, texture).or_else(blurred)
+    }
+
+    /// That levels of long footprints blur, or, where many samples of the same levels would be right, that few of their texels are
+    /// read.
+    pub(super) fn blurred_or_few(&self, cure: &Cure) -> Option<String> {
+        let (paint, texture) = self.wrong_texture()?;
+        let blurred = texture.blurred_across()?;
+        let averaging = self.truth.as_ref()?.causes.averaging;
+        if averaging >= cure.nearer * MOSTLY {
+            return Some(blurred);
+        }
+        let read: BTreeSet<(usize, [u32; 2])> = texels_read(paint).map(|texel| (texel.level, texel.at)).collect();
+        let levels: Vec<String> = texture.levels.iter().map(|level| level.number.to_string()).collect();
+        let plural = if levels.len() == 1 { "" } else { "s" };
+        (texture.pixel_sampling == PixelSampling::Nearest.name() && !read.is_empty()).then(|| {
+            format!(
+                "Of level{plural} {} {} only {}.",
+                levels.join(" and "),
+                self.readers(paint),
+                counted(read.len(), "texel")
+            )
+        })
     }
 
     /// In which values levels were averaged, and in which ones samples are.
@@ -154,31 +176,13 @@ impl Explanation {
     /// How many texels the pixel's footprint holds, and how few of them its samples read.
     fn few_of_many(&self, paint: &Paint, texture: &Texture) -> Option<String> {
         let held = self.texels_held(paint, texture)?;
-        let read: BTreeSet<[u32; 2]> = paint
-            .views
-            .iter()
-            .filter_map(|view| match view {
-                View::Triangle {
-                    value: Interpolated::Texture { texels, .. },
-                    ..
-                } => Some(texels),
-                _ => None,
-            })
-            .flatten()
-            .map(|texel| texel.at)
-            .collect();
+        let read: BTreeSet<[u32; 2]> = texels_read(paint).map(|texel| texel.at).collect();
         let is_whole = paint.fragments.len() == self.samples.len();
         // A texture that goes on beyond its border may be read whole.
         let [width, height] = texture.size.map(u64::from);
         let leaves_out = (read.len() as u64) < width * height;
         (is_whole && leaves_out && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
-            let readers = if self.exact || paint.shaded_at.is_some() {
-                "the one place that is shaded reads"
-            } else if self.samples.len() == 1 {
-                "its only sample reads"
-            } else {
-                "its samples read"
-            };
+            let readers = self.readers(paint);
             let texels = if read.len() == 1 {
                 "one"
             } else {
@@ -190,6 +194,29 @@ impl Explanation {
             )
         })
     }
+
+    /// Who reads the texture of a paint.
+    fn readers(&self, paint: &Paint) -> &'static str {
+        if self.exact || paint.shaded_at.is_some() {
+            "the one place that is shaded reads"
+        } else if self.samples.len() == 1 {
+            "its only sample reads"
+        } else {
+            "its samples read"
+        }
+    }
+}
+
+/// The texels that a paint's places read, some several times.
+fn texels_read(paint: &Paint) -> impl Iterator<Item = &Texel> {
+    let texels = paint.views.iter().filter_map(|view| match view {
+        View::Triangle {
+            value: Interpolated::Texture { texels, .. },
+            ..
+        } => Some(texels),
+        _ => None,
+    });
+    texels.flatten()
 }
 
 impl Texture {

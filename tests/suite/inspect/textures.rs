@@ -5,7 +5,7 @@ use rasterscope::inspect::{Cure, Explanation, Setting};
 use rasterscope::raster::{PixelCoverage, SampleRate, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::scene::{self, ReadOptions, Scene};
-use rasterscope::texture::{Anisotropy, FixedLevel, LevelSampling, LodBias};
+use rasterscope::texture::{Anisotropy, FixedLevel, LevelSampling, LodBias, Wrap};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::explaining::{advised, advised_by_default, explained};
@@ -26,11 +26,17 @@ fn textured(name: &str, copies: f64) -> Scene {
 
 /// The same below something else.
 fn textured_below(name: &str, copies: f64, above: &str) -> Scene {
-    let (low, high) = (-4.0 * copies, 12.0 * copies);
+    stretched_below(name, [copies; 2], above)
+}
+
+/// The same with other numbers of copies in width and in height.
+fn stretched_below(name: &str, copies: [f64; 2], above: &str) -> Scene {
+    let [left, top] = copies.map(|copies| -4.0 * copies);
+    let [right, bottom] = copies.map(|copies| 12.0 * copies);
     let document = format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">
         <texture texid="map" filename="../../assets/textures/{name}"/>
-        <textri texid="map" uvs="{low} {low} {high} {low} {low} {high}" points="0,0 16,0 0,16"/>{above}</svg>"#
+        <textri texid="map" uvs="{left} {top} {right} {top} {left} {bottom}" points="0,0 16,0 0,16"/>{above}</svg>"#
     );
     scene::read(document.as_bytes(), "textured.svg", ReadOptions::default(), &Textures).unwrap()
 }
@@ -242,4 +248,34 @@ fn what_is_shaded_once_is_named_by_whose_colour_is_wrong() {
         assert!(told.contains(expected), "{shading:?}: {told}");
         assert!(!told.contains("extrapolated"), "{shading:?}: {told}");
     }
+}
+
+/// Along a footprint that is longer than wide a level averages too much across; that is the reason where as many samples as the
+/// truth has of the same level are wrong, too.
+#[test]
+fn a_level_is_said_to_blur_where_more_samples_of_it_are_no_better() {
+    let scene = stretched_below("map.png", [0.03, 0.005], "");
+    let (mut blurred, mut few) = (0, 0);
+    let settings = |samples| RenderSettings {
+        wrap: Wrap::Repeat,
+        ..with(samples, LevelSampling::Nearest)
+    };
+    for pixel in (0..64).map(|i| [i % 8, i / 8]) {
+        let found = advised(&scene, &settings(1), [8, 8], pixel);
+        let truth = found.truth.as_ref().expect("little to draw");
+        let often = advised(&scene, &settings(256), [8, 8], pixel);
+        let often = often.truth.as_ref().expect("little to draw").distance;
+        for (cure, hint) in truth.cures.iter().zip(found.hints()) {
+            if hint.contains("that blurs") {
+                assert!(often > cure.nearer * 0.4, "{pixel:?}, {often}: {hint}");
+                blurred += 1;
+            }
+            if hint.contains("Of level ") {
+                assert!(hint.contains(" its only sample reads only 1 texel."), "{hint}");
+                assert!(often < cure.nearer * 0.6, "{pixel:?}, {often}: {hint}");
+                few += 1;
+            }
+        }
+    }
+    assert!(blurred > 3 && few > 3, "{blurred} blurred, {few} too few");
 }

@@ -1,5 +1,6 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
+mod extent;
 mod legend;
 mod nearby;
 mod parts;

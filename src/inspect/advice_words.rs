@@ -119,7 +119,7 @@ impl Explanation {
     }
 
     /// Whether so many pixels are less than what lies between samples, by more than snapping takes from a width.
-    fn is_less_than_apart(&self, width: f64) -> bool {
+    pub(super) fn is_less_than_apart(&self, width: f64) -> bool {
         const SNAPPED: f64 = 0.99;
         width < self.step() * SNAPPED
     }
@@ -143,9 +143,11 @@ impl Explanation {
         let is_reason = |cause: MissedCause| cause.part > 0.0 && cause.levels >= cure.nearer * MOSTLY;
         if is_reason(thin) {
             let part = thin.part_words();
-            return Some(format!(
-                "What is thin passes between the samples here, {part} of the pixel: it breaks up."
-            ));
+            return Some(if thin.small {
+                format!("What is small lies between the samples here, {part} of the pixel: it vanishes.")
+            } else {
+                format!("What is thin passes between the samples here, {part} of the pixel: it breaks up.")
+            });
         }
         is_reason(missed).then(|| {
             let part = missed.part_words();
@@ -164,11 +166,16 @@ impl Explanation {
         let paint = self.topmost().filter(|paint| !paint.is_crisp())?;
         let width = paint.width.filter(|width| self.is_less_than_apart(*width))?;
         (self.resolve.around.is_none() && self.is_of_topmost(cure)).then_some(())?;
+        let (named, apart) = (self.topmost_numbered()?, significant(self.step()));
+        if let Some(length) = paint.length.filter(|length| self.is_less_than_apart(*length)) {
+            let length = significant(length);
+            return Some(format!(
+                "Here {named} is {length} px long, less than samples are apart ({apart} px): it vanishes where it lies between them."
+            ));
+        }
+        let width = significant(width);
         Some(format!(
-            "Here {} is {} px wide, less than samples are apart ({} px): it breaks up where it passes between them.",
-            self.topmost_numbered()?,
-            significant(width),
-            significant(self.step())
+            "Here {named} is {width} px wide, less than samples are apart ({apart} px): it breaks up where it passes between them."
         ))
     }
 

@@ -172,6 +172,7 @@ impl Explanation {
         (part > 0.0).then(|| MissedCause {
             levels: truth.distance - distance(self.color, rest),
             part,
+            small: missed.iter().all(|missed| self.is_less_than_apart(missed.length)),
             area: ((area - part).abs() < counted).then_some(area),
         })
     }

@@ -105,6 +105,7 @@ impl Explanation {
             && topmost.area.is_some_and(|area| area < 1.0)
         {
             topmost.width = explainer.width(topmost.primitive, around);
+            topmost.length = explainer.length(topmost.primitive);
         }
         Some(Self {
             version: VERSION,
@@ -190,6 +191,7 @@ impl Question<'_> {
                 area,
                 shown: None,
                 width: sources.explainer.width(primitive, around)?,
+                length: sources.explainer.length(primitive)?,
                 ties: self.ties(primitive, sources.explainer, positions),
             })
         };
@@ -234,6 +236,7 @@ impl Question<'_> {
                 .collect(),
             covered: op.covered_part(),
             width: None,
+            length: None,
             shaded_at: op.shaded.map(ShadingPlace::position),
             views,
             texture,

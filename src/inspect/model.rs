@@ -184,6 +184,8 @@ pub struct MissedCause {
     pub part: f64,
     /// The area of it all, where it is that part.
     pub area: Option<f64>,
+    /// Whether all of it is shorter than samples are apart: a dot, and no line.
+    pub small: bool,
 }
 
 /// A setting that brings a pixel nearer to the truth.
@@ -324,9 +326,12 @@ pub struct Paint {
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
     /// Of the topmost one that is seen, where it does not cover all of the pixel: how wide it is there and beside it in its
-    /// thinnest direction, in pixels.
+    /// thinnest direction, in pixels, with the triangles that continue it in its paint.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
+    /// Of the same one how long it is: the longer side of the box around it.
+    #[serde(skip)]
+    pub length: Option<f64>,
 }
 
 /// What paints.
@@ -687,8 +692,12 @@ pub struct Missed {
     /// The part of the truth's samples that show it: not what is hidden, clipped or masked; of a part of a clip path or mask, those
     /// that it changes. `None` where there is no truth, or none of its samples is met.
     pub shown: Option<f64>,
-    /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
+    /// How wide it is here in its thinnest direction, in pixels, with the triangles that continue it in its paint: in the pixel and
+    /// up to two samples' distances beside it.
     pub width: f64,
+    /// How long it is: the longer side of the box around it.
+    #[serde(skip)]
+    pub length: f64,
     /// The samples that lie exactly on its edge.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<Tie>,

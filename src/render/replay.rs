@@ -5,9 +5,10 @@ use std::collections::HashSet;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::extent::TriangleEdges;
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{BEYOND, FillRule, Polygon, area_in_pixel, cut_to_window, width_in_window, width_of_part};
+use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
@@ -184,6 +185,7 @@ pub struct Explainer<'a> {
     pub(super) context: ListContext,
     raster: RasterSettings,
     pub(super) pixel: [u32; 2],
+    pub(super) edges: TriangleEdges,
 }
 
 impl<'a> Explainer<'a> {
@@ -195,6 +197,7 @@ impl<'a> Explainer<'a> {
             context: ListContext::new(size, &raster),
             raster,
             pixel,
+            edges: TriangleEdges::default(),
         }
     }
 
@@ -327,24 +330,6 @@ impl<'a> Explainer<'a> {
         let contours = contours.iter().map(|contour| contour.iter().copied());
         let in_one = cut_to_window(contours, FillRule::EvenOdd, [corner, corner + 1.0]).area()?;
         Some((a + b - in_one) / 2.0)
-    }
-
-    /// How wide a primitive is in the thinnest direction, in pixels, as far as it lies in the pixel or at most `around` pixels
-    /// beside it, or the widest of its parts there that touch the pixel; `None` where [`Explainer::area`] is.
-    pub fn width(&self, source: u32, around: f64) -> Option<f64> {
-        let screen = self.screen();
-        let corner = DVec2::from(self.pixel.map(f64::from));
-        let window = [corner - around, corner + 1.0 + around];
-        let place = |points: &[DVec2; 3]| points.map(|point| screen.place(point));
-        match &self.subject.scene.primitives.get(source as usize)?.kind {
-            PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
-            PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
-                let around_it = [window[0] - BEYOND, window[1] + BEYOND];
-                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), around_it);
-                width_of_part(inside.triangles()?, window, around)
-            }),
-            _ => None,
-        }
     }
 
     /// Primitives that cover parts of the pixel and none of its samples. At most `most` of them.

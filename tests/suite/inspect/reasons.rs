@@ -110,6 +110,63 @@ fn what_passes_between_neighbours_is_the_reason() {
     }
 }
 
+/// A dot has no length in which it could break up.
+#[test]
+fn what_is_small_vanishes() {
+    for dot in [
+        r#"<circle cx="6.2" cy="6.3" r="0.17"/>"#,
+        r#"<rect x="6.05" y="6.1" width="0.35" height="0.32"/>"#,
+    ] {
+        let told = hints(dot, &at_rate(1), [6, 6]);
+        assert!(
+            told.contains("What is small lies between the samples here, "),
+            "{dot}: {told}"
+        );
+        assert!(told.contains(" of the pixel: it vanishes."), "{dot}: {told}");
+        let met = dot
+            .replace("6.2", "6.5")
+            .replace("6.3", "6.5")
+            .replace("6.05", "6.35")
+            .replace("6.1", "6.35");
+        let told = hints(&met, &at_rate(1), [6, 6]);
+        assert!(
+            told.contains(" px long, less than samples are apart (1 px): it vanishes where it lies"),
+            "{met}: {told}"
+        );
+    }
+    let line = hints(
+        r#"<rect x="6.05" y="6.1" width="9" height="0.32"/>"#,
+        &at_rate(1),
+        [6, 6],
+    );
+    assert!(line.contains("it breaks up"), "{line}");
+}
+
+/// A document of the course's dialect.
+fn told_of_course(body: &str, settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
+    let document = format!(
+        r##"<svg width="20" height="20"><rect x="0" y="0" width="20" height="20" fill="#FFFFFF"/>{body}</svg>"##
+    );
+    let scene = scene::read(document.as_bytes(), "reasons.svg", ReadOptions::default(), &NoResources).unwrap();
+    advised(&scene, settings, SIZE, pixel)
+}
+
+/// Two triangles of one colour make a stripe that is wide, though each ends in a point.
+#[test]
+fn what_a_neighbour_continues_is_not_thin() {
+    let triangle =
+        |points: &str, color: &str| format!(r#"<colortri points="{points}" colors="{color} {color} {color}"/>"#);
+    let stripe = |other: &str| triangle("8.4,1 10.3,1 10.3,19", "0 0 0 1") + &triangle("8.4,1 10.3,19 8.4,19", other);
+    for (rate, pixel) in [(1, [8, 3]), (1, [10, 16]), (4, [8, 3]), (4, [10, 16])] {
+        let told = told_of_course(&stripe("0 0 0 1"), &at_rate(rate), pixel);
+        let words = told.help_lines().join("\n");
+        assert!(!words.contains("breaks up"), "{rate}, {pixel:?}: {words}");
+    }
+    let alone = told_of_course(&triangle("8.7,1 8.9,1 8.9,19", "0 0 0 1"), &at_rate(1), [8, 3]);
+    let words = alone.help_lines().join("\n");
+    assert!(words.contains("breaks up"), "{words}");
+}
+
 #[test]
 fn what_is_as_wide_as_samples_are_apart_is_not_thin() {
     let body = r##"<path d="M0 10L20 12.5" stroke="#000" stroke-width="1"/>"##;

@@ -257,7 +257,7 @@ fn a_level_is_said_to_blur_where_more_samples_of_it_are_no_better() {
     let scene = stretched_below("map.png", [0.03, 0.005], "");
     let (mut blurred, mut few) = (0, 0);
     let settings = |samples| RenderSettings {
-        wrap: Wrap::Repeat,
+        texture_wrap: Wrap::Repeat,
         ..with(samples, LevelSampling::Nearest)
     };
     for pixel in (0..64).map(|i| [i % 8, i / 8]) {

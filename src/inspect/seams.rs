@@ -10,6 +10,15 @@ const WIDEST_GAP: f64 = 0.25;
 /// Cosine of the angle between edges that run side by side.
 const SIDE_BY_SIDE: f64 = 0.98;
 
+/// What two neighbours share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Meeting {
+    /// A whole edge.
+    Edge,
+    /// A part of one.
+    Line,
+}
+
 impl Explanation {
     /// Where this pixel has a seam, what it comes of. What cures it, if anything does, is for [`super::Truth`] to find out.
     pub(super) fn seams(&self) -> Vec<String> {
@@ -43,7 +52,7 @@ impl Explanation {
         ))
     }
 
-    /// The two neighbours that both own a sample on their line.
+    /// The two neighbours that both own a sample on their line; of several pairs on one line those that share a whole edge.
     fn twice_at(&self, sample: usize) -> Option<[usize; 2]> {
         let stack = &self.samples.get(sample)?.stack;
         let seen = |paint: usize| self.fragment(paint, sample).filter(|fragment| fragment.seen);
@@ -57,13 +66,42 @@ impl Explanation {
             .enumerate()
             .flat_map(|(i, upper)| tied[..i].iter().map(move |lower| [*lower, *upper]));
         let shines = |paint: usize| seen(paint).is_some_and(Fragment::shines_through);
-        let mut seams = pairs.filter(|[lower, upper]| shines(*upper) && self.are_apart(*lower, *upper));
-        seams.next()
+        let seams: Vec<[usize; 2]> = pairs.filter(|[_, upper]| shines(*upper)).collect();
+        let whole = seams.iter().find(|pair| self.meet_at(**pair, sample, Meeting::Edge));
+        // Where a corner of one lies on an edge of the other; an opaque one may lie below both.
+        let in_part = || {
+            seams
+                .iter()
+                .find(|pair| shines(pair[0]) && self.meet_at(**pair, sample, Meeting::Line))
+        };
+        whole.or_else(in_part).copied()
     }
 
     fn is_on_line(&self, paint: usize, sample: usize) -> bool {
-        let edges = self.edges(paint, sample);
-        edges.is_some_and(|edges| edges.iter().any(|edge| edge.verdict == Verdict::TieInclusive))
+        self.tied_edges(paint, sample).next().is_some()
+    }
+
+    /// The edges of a triangle on whose lines a sample lies, each from its first corner on: that one, the next, and the third.
+    fn tied_edges(&self, paint: usize, sample: usize) -> impl Iterator<Item = [[f64; 2]; 3]> {
+        let both = self.edges(paint, sample).zip(self.corners(paint));
+        both.into_iter().flat_map(|(edges, corners)| {
+            let tied = (0..3).filter(|i| edges[*i].verdict == Verdict::TieInclusive);
+            tied.map(|i| [0, 1, 2].map(|next| corners[(i + next) % 3]))
+        })
+    }
+
+    /// Whether two triangles lie on both sides of a line on which a sample lies.
+    fn meet_at(&self, [a, b]: [usize; 2], sample: usize, meeting: Meeting) -> bool {
+        let meet = |[from, to, third]: [[f64; 2]; 3], [start, end, other]: [[f64; 2]; 3]| {
+            let on_both_sides = side(from, to, third) * side(from, to, other) < 0.0;
+            let meet = match meeting {
+                Meeting::Edge => [from, to] == [start, end] || [from, to] == [end, start],
+                Meeting::Line => [start, end].into_iter().all(|point| side(from, to, point) == 0.0),
+            };
+            on_both_sides && meet
+        };
+        self.tied_edges(a, sample)
+            .any(|own| self.tied_edges(b, sample).any(|other| meet(own, other)))
     }
 
     /// The edges of a triangle that is seen: parts of a mask have none that anybody could see a seam at.

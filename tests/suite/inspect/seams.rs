@@ -81,6 +81,20 @@ fn seams_of_edges_that_are_drawn_twice() {
     assert!(!told.contains(TWICE), "these are no neighbours: {told}");
 }
 
+/// The diagonals of both squares lie on one line: those of the paper meet there, too, and are opaque.
+#[test]
+fn seams_name_the_halves_of_what_shines_through() {
+    let paper = r##"<rect x="0" y="0" width="20" height="20" fill="#FFFFFF"/>"##;
+    let square = r##"<rect x="5" y="5" width="10" height="10" fill="#FF0000" fill-opacity="0.5"/>"##;
+    let at = |body: &str| hints(body, &settings(Rules::Course, 1), [20, 20], [7, 12]);
+    let told = at(&format!("{paper}{square}"));
+    let pair = "on the line between 3 (triangle of rect, line 1) and 4 (triangle of rect, line 1).";
+    assert!(told.contains(TWICE) && told.contains(pair), "{told}");
+    let half = r##"<polygon points="5,5 15,5 5,15" fill="#FF0000" fill-opacity="0.5"/>"##;
+    let told = at(&format!("{paper}{half}"));
+    assert!(!told.contains(TWICE), "one half has no neighbour: {told}");
+}
+
 #[test]
 fn seams_of_gaps_in_the_document() {
     let two = |left: f64, right: f64| {

@@ -337,13 +337,25 @@ impl Question<'_> {
         }
     }
 
-    /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
+    /// The samples that the float rules leave open, though a triangle that nothing opaque lies above is theirs, and no neighbour's.
     fn pinholes(&self, samples: &[Sample], paints: &[Paint], sources: Sources<'_>) -> Vec<Pinhole> {
         if self.subject.settings.rules != Rules::Float {
             return Vec::new();
         }
-        let seen = |sample: &Sample| sample.seen.map(|paint| paints[paint].primitive);
-        let seen: Vec<Option<u32>> = samples.iter().map(seen).collect();
+        let opaque = |(number, sample): (usize, &Sample)| {
+            let hides = |paint: &&Paint| {
+                let mut fragments = paint.fragments.iter().filter(|fragment| fragment.sample == number);
+                fragments.any(|fragment| fragment.seen && fragment.color[3] >= 255.0)
+            };
+            let stack = sample.stack.iter().rev().map(|paint| &paints[*paint]);
+            let mut primitives = stack.filter(|paint| !paint.shape.is_layer_mark());
+            primitives.find(hides).map(|paint| paint.primitive)
+        };
+        let opaque: Vec<Option<u32>> = samples.iter().enumerate().map(opaque).collect();
+        let is_neighbours = |open: &OpenSample| {
+            let stack = samples[open.sample].stack.iter();
+            stack.into_iter().any(|paint| is_beside(&paints[*paint], open.corners))
+        };
         let pinhole = |open: OpenSample| {
             Some(Pinhole {
                 sample: open.sample,
@@ -355,8 +367,9 @@ impl Question<'_> {
         };
         sources
             .explainer
-            .left_open(&seen)
+            .left_open(&opaque)
             .into_iter()
+            .filter(|open| !is_neighbours(open))
             .filter_map(pinhole)
             .collect()
     }
@@ -381,6 +394,14 @@ impl Question<'_> {
             text: quotes.and_then(|quotes| quotes.excerpt(shape.location)),
         }
     }
+}
+
+/// Whether a paint is a triangle that shares an edge with one of these corners.
+fn is_beside(paint: &Paint, corners: [DVec2; 3]) -> bool {
+    let Shape::Triangle { corners: own } = paint.shape else {
+        return false;
+    };
+    corners.iter().filter(|corner| own.contains(&corner.to_array())).count() == 2
 }
 
 fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> {

@@ -250,10 +250,11 @@ impl<'a> Explainer<'a> {
     }
 
     /// The samples of the pixel that are a triangle's by exact edges and not by edges in 32-bit floats, where that triangle
-    /// would hide what is seen: `seen` says for each sample which primitive that is. At most one for each sample.
-    pub fn left_open(&self, seen: &[Option<u32>]) -> Vec<OpenSample> {
-        let mut open: Vec<Option<OpenSample>> = vec![None; seen.len()];
-        let below = seen.iter().min().copied().flatten().map_or(0, |seen| seen as usize + 1);
+    /// would be seen: `opaque` says for each sample which primitive hides all that lies below it. At most one for each sample.
+    pub fn left_open(&self, opaque: &[Option<u32>]) -> Vec<OpenSample> {
+        let mut open: Vec<Option<OpenSample>> = vec![None; opaque.len()];
+        let below = opaque.iter().min().copied().flatten();
+        let below = below.map_or(0, |opaque| opaque as usize + 1);
         let primitives = self.subject.scene.primitives.iter().enumerate().skip(below).rev();
         for (index, primitive) in primitives.filter(|(_, primitive)| self.is_near(&primitive.kind)) {
             let source = number(index);
@@ -262,8 +263,8 @@ impl<'a> Explainer<'a> {
                     continue;
                 };
                 for (sample, view) in samples.into_iter().enumerate() {
-                    let hides = seen[sample].is_none_or(|seen| seen < source);
-                    if hides && open[sample].is_none() && view.is_left_open() {
+                    let shows = opaque[sample].is_none_or(|opaque| opaque < source);
+                    if shows && open[sample].is_none() && view.is_left_open() {
                         open[sample] = Some(OpenSample {
                             sample,
                             source,

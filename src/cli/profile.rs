@@ -61,6 +61,9 @@ struct EdgeReport {
     undershoot: f64,
     /// Whether there is no other edge: then alone width, overshoot and undershoot are those of an edge.
     alone: bool,
+    /// What the values do otherwise, in a few words.
+    #[serde(skip)]
+    more_than_an_edge: Option<&'static str>,
 }
 
 #[derive(Debug, Serialize)]
@@ -201,14 +204,26 @@ impl Report {
             self.picture.line("picture"),
             self.truth.line("truth"),
         ];
-        let edges = [&self.picture.edge, &self.truth.edge];
-        if edges.into_iter().flatten().any(|edge| !edge.alone) {
-            lines.push(
-                "The line crosses more than one edge, which have no width, overshoot or undershoot together."
-                    .to_owned(),
-            );
-        }
+        lines.extend(self.not_measured());
         lines.join("\n")
+    }
+
+    /// Why width, overshoot and undershoot are left out, for each side or for both.
+    fn not_measured(&self) -> Vec<String> {
+        let why = |side: &SideReport| side.edge.as_ref()?.more_than_an_edge;
+        let line = |side: &str, values: &str| {
+            format!(
+                "In the {side} the values {values}: width, overshoot and undershoot would be those of no single edge."
+            )
+        };
+        let [picture, truth] = [why(&self.picture), why(&self.truth)];
+        match picture {
+            Some(both) if picture == truth => vec![line("picture and in the truth", both)],
+            _ => {
+                let sides = [("picture", picture), ("truth", truth)].into_iter();
+                sides.filter_map(|(side, why)| Some(line(side, why?))).collect()
+            }
+        }
     }
 }
 
@@ -251,6 +266,7 @@ impl EdgeReport {
             overshoot: rounded(edge.overshoot),
             undershoot: rounded(edge.undershoot),
             alone: edge.is_alone(),
+            more_than_an_edge: edge.more_than_an_edge(),
         }
     }
 }

@@ -140,7 +140,20 @@ impl Edge {
     /// Whether it seems to be the only one: the line goes from one plateau to the other once and without a rest, and no value is
     /// farther beyond both than filters ring. Else width, overshoot and undershoot are those of no edge.
     pub fn is_alone(&self) -> bool {
-        self.swings <= 1 && !self.rests && self.overshoot.max(self.undershoot) < ANOTHER
+        self.more_than_an_edge().is_none()
+    }
+
+    /// What the values do that those across a single edge do not, in a few words; `None` where it seems to be the only one.
+    pub fn more_than_an_edge(&self) -> Option<&'static str> {
+        if self.swings > 1 {
+            Some("go back and forth")
+        } else if self.rests {
+            Some("rest on the way")
+        } else if self.overshoot.max(self.undershoot) >= ANOTHER {
+            Some("go far beyond both ends")
+        } else {
+            None
+        }
     }
 }
 

@@ -270,14 +270,31 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
         });
         row(ui, widths, |ui| sign(ui, curve.side), cells);
     }
-    let note = if edges.iter().any(Option::is_none) {
-        "No width, over or under where both ends of the line are alike."
-    } else if edges.iter().flatten().any(|edge| !edge.is_alone()) {
-        "No width, over or under where the line crosses more than one edge."
-    } else {
-        return;
-    };
-    ui.label(RichText::new(note).small().color(ui.visuals().warn_fg_color));
+    if let Some(note) = not_measured(curves, &edges) {
+        ui.label(RichText::new(note).small().color(ui.visuals().warn_fg_color));
+    }
+}
+
+/// Why numbers are left out.
+fn not_measured(curves: &[ProfileCurve], edges: &[Option<Edge>]) -> Option<String> {
+    if edges.iter().any(Option::is_none) {
+        return Some("No width, over or under where both ends of the line are alike.".to_owned());
+    }
+    let more: Vec<(&str, &str)> = curves
+        .iter()
+        .zip(edges)
+        .filter_map(|(curve, edge)| Some((profile_plot::name(curve.side), edge.as_ref()?.more_than_an_edge()?)))
+        .collect();
+    let (_, values) = more.first()?;
+    let names: Vec<&str> = more
+        .iter()
+        .filter(|(_, other)| other == values)
+        .map(|(name, _)| *name)
+        .collect();
+    Some(format!(
+        "No width, over or under where values {values}: {}.",
+        names.join(", ")
+    ))
 }
 
 /// A number with its unit; one of three digits before the point has no more than one behind it, so that it fits its column.

@@ -122,7 +122,7 @@ fn profile_without_an_edge_says_so() {
     ]
     .concat();
     assert!(
-        !done(folder.path(), &words).contains("more than one edge"),
+        !done(folder.path(), &words).contains("no single edge"),
         "within one tint"
     );
     let words = [
@@ -131,7 +131,10 @@ fn profile_without_an_edge_says_so() {
     ]
     .concat();
     let text = done(folder.path(), &words);
-    assert!(text.contains("more than one edge"), "across two");
+    assert!(
+        text.contains("the values ") && text.contains("would be those of no single edge."),
+        "across two: {text}"
+    );
     assert!(
         !text.contains(" px") && text.contains('\u{2013}'),
         "of which no number is: {text}"
@@ -168,4 +171,28 @@ fn profile_refuses_what_it_cannot_measure() {
         let output = command(folder.path(), &all).output().unwrap();
         assert_refused(&output, &all, &words);
     }
+}
+
+/// Few samples make stairs along one edge that the line follows: the truth's values do not, and nothing is said of it.
+#[test]
+fn profile_along_an_edge_says_whose_values_go_back_and_forth() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("slope.svg");
+    let slope = r##"<svg xmlns="http://www.w3.org/2000/svg" width="60" height="60" viewBox="0 0 60 60"><rect width="60" height="60" fill="#fff"/><polygon points="0,0 30.3,0 24.1,60 0,60" fill="#204080"/></svg>"##;
+    fs::write(&scene, slope).unwrap();
+    let words = [
+        "profile",
+        scene.to_str().unwrap(),
+        "--line=25,2,30,58",
+        "--size=60x60",
+        "--view=canvas",
+        "--sample-rate=4",
+    ];
+    let text = done(folder.path(), &words);
+    assert!(text.contains("In the picture the values "), "{text}");
+    assert!(
+        !text.contains("In the truth") && !text.contains("and in the truth"),
+        "{text}"
+    );
+    assert!(!text.contains("crosses"), "there is one edge: {text}");
 }

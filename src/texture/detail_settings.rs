@@ -68,6 +68,19 @@ impl LodBias {
         Self::new((self.0 + by).clamp(-Self::MAX, Self::MAX)).unwrap_or(self)
     }
 
+    /// The next multiple of a step, upwards, or downwards where the step is below zero; kept within the limits.
+    #[must_use]
+    pub fn next_multiple(self, step: f64) -> Self {
+        let size = step.abs();
+        let past = if step < 0.0 {
+            (self.0 / size).ceil()
+        } else {
+            (self.0 / size).floor()
+        };
+        let next = past + step.signum();
+        Self::new((next * size).clamp(-Self::MAX, Self::MAX)).unwrap_or(self)
+    }
+
     /// In levels.
     pub fn levels(self) -> f64 {
         self.0

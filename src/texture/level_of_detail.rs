@@ -222,6 +222,15 @@ mod tests {
             level = FixedLevel::after(level);
         }
         assert_eq!(steps, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], "then none");
+        let steps = |from: f64, step: f64| {
+            let first = LodBias::new(from).expect("within limits");
+            let all = std::iter::successors(Some(first), |bias| Some(bias.next_multiple(step)));
+            all.skip(1).take(3).map(LodBias::levels).collect::<Vec<f64>>()
+        };
+        assert_eq!(steps(1.3, -0.5), [1.0, 0.5, 0.0], "down to none");
+        assert_eq!(steps(-1.3, 0.5), [-1.0, -0.5, 0.0], "up to none");
+        assert_eq!(steps(0.5, -0.5), [0.0, -0.5, -1.0], "a half each");
+        assert_eq!(steps(15.75, 0.5), [16.0; 3], "no further");
         let zero = LodBias::new(-0.0).expect("nothing");
         assert!(zero.levels().is_sign_positive(), "no minus is shown");
     }

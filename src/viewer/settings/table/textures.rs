@@ -146,7 +146,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 ..SettingCommand::new(
                     "sharper",
                     "Sharper textures",
-                    "Lowers the bias of the level of detail by a half",
+                    "Lowers the bias of the level of detail to the next half",
                 )
             },
             SettingCommand {
@@ -155,7 +155,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
                 ..SettingCommand::new(
                     "softer",
                     "Softer textures",
-                    "Raises the bias of the level of detail by a half",
+                    "Raises the bias of the level of detail to the next half",
                 )
             },
         ],
@@ -168,7 +168,7 @@ pub(super) const ROWS: &[PictureSetting] = &[
             settings.render.detail.bias = values::number(text).and_then(LodBias::new)?;
             Some(())
         },
-        step: |settings, by| settings.render.detail.bias = settings.render.detail.bias.stepped(by),
+        step: |settings, by| settings.render.detail.bias = settings.render.detail.bias.next_multiple(by),
     },
     PictureSetting {
         option: "lod-level",

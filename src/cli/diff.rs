@@ -65,6 +65,9 @@ struct GuessReport {
     causes: Vec<String>,
     /// The share of the squared difference that they explain together, from 0 to 1.
     explained: f64,
+    /// Whether they leave so much that others may do as well.
+    #[serde(skip)]
+    leaves_a_part: bool,
     /// Whether time was up before everything was tried.
     stopped: bool,
 }
@@ -433,6 +436,7 @@ impl GuessReport {
         Self {
             causes: guess.causes.iter().map(ToString::to_string).collect(),
             explained: guess.explained(),
+            leaves_a_part: guess.leaves_a_part(),
             stopped: guess.stopped,
         }
     }
@@ -454,8 +458,13 @@ impl GuessReport {
         }
         // Rounded down, so that 100 % means all of it.
         let percent = (self.explained * 1000.0).floor() / 10.0;
+        let others = if self.leaves_a_part {
+            "\n  (a part is left: other causes, or more of them at once, may do as well)"
+        } else {
+            ""
+        };
         format!(
-            "guess at the cause explains {percent} % of the squared difference:\n  {}{stopped}",
+            "guess at the cause explains {percent} % of the squared difference:\n  {}{others}{stopped}",
             self.causes.join("\n  and ")
         )
     }
@@ -484,6 +493,33 @@ impl PlaceReport {
             x: place.at[0],
             y: place.at[1],
             levels: place.levels,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::Cause;
+    use crate::rules::Rules;
+
+    #[test]
+    fn guess_that_leaves_a_part_says_that_others_may_do_as_well() {
+        let told = |after| {
+            let guess = Guess {
+                causes: vec![Cause::Rules(Rules::Course)],
+                before: 100_000,
+                after,
+                stopped: false,
+            };
+            GuessReport::new(&guess).text()
+        };
+        let note = "may do as well";
+        let some = told(300);
+        assert!(some.contains("explains 99.7 %") && some.contains(note), "{some}");
+        assert!(some.lines().all(|line| line.chars().count() <= 80), "{some}");
+        for after in [0, 20] {
+            assert!(!told(after).contains(note), "{after} is rounding: {}", told(after));
         }
     }
 }

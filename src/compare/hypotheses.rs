@@ -51,6 +51,12 @@ impl Guess {
         // Sums stay far below 2^53.
         1.0 - self.after as f64 / self.before as f64
     }
+
+    /// Whether the causes leave more of the difference than rounding may: other ones may leave as little, and so may more of them than
+    /// are tried together.
+    pub fn leaves_a_part(&self) -> bool {
+        1.0 - self.explained() > NEGLIGIBLE
+    }
 }
 
 /// Finds what makes the picture of `subject` most like `other`, a picture of the same scene by another renderer. Draws

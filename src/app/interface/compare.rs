@@ -307,4 +307,9 @@ fn guess(ui: &mut Ui, viewer: &Viewer) {
     let tip = "A was drawn under every known cause; these make it most like B.";
     let text = format!("explains {percent} % of the squared difference");
     ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
+    if guess.leaves_a_part() {
+        let tip = "At most three causes are tried together.";
+        let text = "others, or more at once, may do as well";
+        ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
+    }
 }

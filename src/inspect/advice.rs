@@ -171,15 +171,15 @@ impl Truth {
 
 /// How far two colours are apart: the largest difference of a channel, in levels, when both are premultiplied.
 pub(super) fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
-    let premultiplied = |[r, g, b, a]: [u8; 4]| {
-        let alpha = f64::from(a) / 255.0;
-        [r, g, b]
-            .map(|channel| f64::from(channel) * alpha)
-            .into_iter()
-            .chain([f64::from(a)])
-    };
-    let apart = premultiplied(a).zip(premultiplied(b)).map(|(a, b)| (a - b).abs());
-    apart.fold(0.0, f64::max)
+    let apart = premultiplied(a).into_iter().zip(premultiplied(b));
+    apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// A straight colour, premultiplied, in levels.
+pub(super) fn premultiplied([r, g, b, a]: [u8; 4]) -> [f64; 4] {
+    let alpha = f64::from(a) / 255.0;
+    let [r, g, b] = [r, g, b].map(|channel| f64::from(channel) * alpha);
+    [r, g, b, f64::from(a)]
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::advice::distance;
+use super::advice::{distance, premultiplied};
 use super::explanation::Question;
 use super::model::{Causes, Explanation, Missed, MissedCause, Paint, Truth};
 use super::resolve::levels;
@@ -114,7 +114,7 @@ impl Explanation {
         };
         let (once, sampled) = (color(nearby, &once), color(nearby, &sampled));
         Causes {
-            coverage: sampled.zip(once).map_or(0.0, |(sampled, once)| distance(sampled, once)),
+            coverage: sampled.zip(once).map_or(0.0, |pair| self.nearer_by(pair, truth)),
             thin: missed(&|missed| self.is_thin(missed)).unwrap_or_default(),
             missed: missed(&|_| true).unwrap_or_default(),
             topmost: self.topmost_cause(&samples, truth).unwrap_or(0.0),
@@ -123,6 +123,13 @@ impl Explanation {
             off_color: self.off_color(&samples, |_| true),
             off_texture: self.off_color(&samples, |paint| paint.texture.is_some()),
         }
+    }
+
+    /// By how many levels the pixel would be nearer to the truth if what changes one colour to another were changed in it.
+    fn nearer_by(&self, (from, to): ([u8; 4], [u8; 4]), truth: &Truth) -> f64 {
+        let [own, from, to, right] = [self.color, from, to, truth.color].map(premultiplied);
+        let left = |channel: usize| (own[channel] + to[channel] - from[channel] - right[channel]).abs();
+        truth.distance - [0, 1, 2, 3].map(left).into_iter().fold(0.0, f64::max)
     }
 
     /// The paint, of those that are one of these, whose colour is farthest from its true one, counted by the part of the pixel that

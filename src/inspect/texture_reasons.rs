@@ -63,7 +63,7 @@ impl Explanation {
         let plural = if levels.len() == 1 { "" } else { "s" };
         (texture.pixel_sampling == PixelSampling::Nearest.name() && !read.is_empty()).then(|| {
             format!(
-                "Of level{plural} {} {} only {}.",
+                "Of level{plural} {} {} just {}.",
                 levels.join(" and "),
                 self.readers(paint),
                 counted(read.len(), "texel")

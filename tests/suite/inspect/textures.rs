@@ -271,11 +271,30 @@ fn a_level_is_said_to_blur_where_more_samples_of_it_are_no_better() {
                 blurred += 1;
             }
             if hint.contains("Of level ") {
-                assert!(hint.contains(" its only sample reads only 1 texel."), "{hint}");
+                assert!(hint.contains(" its only sample reads just 1 texel."), "{hint}");
                 assert!(often < cure.nearer * 0.6, "{pixel:?}, {often}: {hint}");
                 few += 1;
             }
         }
     }
     assert!(blurred > 3 && few > 3, "{blurred} blurred, {few} too few");
+}
+
+/// Two triangles make one floor: which of them a sample meets changes nothing, and what is wrong is how few texels are read.
+#[test]
+fn what_one_texture_goes_on_across_is_not_wrongly_covered() {
+    let floor = r#"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">
+        <texture texid="map" filename="../../assets/textures/checker.png"/>
+        <textri texid="map" uvs="0 0 1 0 1 1" points="-8,-7.7 16,-7.7 16,16.3"/>
+        <textri texid="map" uvs="0 0 1 1 0 1" points="-8,-7.7 16,16.3 -8,16.3"/></svg>"#;
+    let scene = scene::read(floor.as_bytes(), "floor.svg", ReadOptions::default(), &Textures).unwrap();
+    let mut told_of_texels = 0;
+    for pixel in (0..8).flat_map(|x| [[x, x], [x, (x + 1).min(7)]]) {
+        let told = hints(&advised(&scene, &with(1, LevelSampling::Zero), [8, 8], pixel));
+        for wrong in ["by area", "No sample meets", "breaks up"] {
+            assert!(!told.contains(wrong), "{pixel:?}: {told}");
+        }
+        told_of_texels += usize::from(told.contains("what is between them is not read"));
+    }
+    assert!(told_of_texels > 0, "some pixels want more samples");
 }

@@ -5,9 +5,9 @@ use rasterscope::inspect::{Setting, Verdict};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
-use rasterscope::scene::Scene;
+use rasterscope::scene::{self, NoResources, ReadOptions, Scene};
 
-use crate::support::explaining::{advised_by_default, explained};
+use crate::support::explaining::{advised, advised_by_default, explained};
 use crate::support::scenes::{at_rate, drawn, gallery_scene};
 
 fn picture(scene: &Scene, size: [u32; 2], settings: &RenderSettings) -> Framebuffer {
@@ -124,5 +124,22 @@ fn float_rules_leave_whole_frames_alike_however_they_are_drawn() {
             pool.install(|| picture(&scene, size, &settings))
         };
         assert!(draw(1) == draw(3), "rate {samples}");
+    }
+}
+
+/// A sheet of glass hides no hole, and a board does.
+#[test]
+fn float_rules_pinholes_are_told_below_what_shines_through() {
+    let halves = r##"<polygon points="1,2 9,2 9,10" fill="#FF0000"/><polygon points="1,2 9,10 1,10" fill="#FF0000"/>"##;
+    let sheet =
+        |opacity| format!(r##"<rect x="0" y="1" width="11" height="4" fill="#0000FF" fill-opacity="{opacity}"/>"##);
+    for (above, is_told) in [(String::new(), true), (sheet("0.5"), true), (sheet("1"), false)] {
+        let document = format!(
+            r##"<svg width="12" height="12"><rect x="0" y="0" width="12" height="12" fill="#FFFFFF"/>{halves}{above}</svg>"##
+        );
+        let scene = scene::read(document.as_bytes(), "holes.svg", ReadOptions::default(), &NoResources).unwrap();
+        let found = advised(&scene, &by(Rules::Float), [12, 12], [3, 4]);
+        assert_eq!(found.pinholes.len(), usize::from(is_told), "{above}");
+        assert_eq!(found.hints().concat().contains("in a pinhole"), is_told, "{above}");
     }
 }

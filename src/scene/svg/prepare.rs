@@ -351,10 +351,14 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
     }
 
-    /// Gives the element an id if it needs one.
+    /// Gives the element an id if it needs one, in the place of an empty one.
     fn identify(&mut self, node: Node<'doc, 'doc>) {
         if let Some(id) = self.elements.give(node) {
-            self.edits.insert(self.name_end(node), format!(" id=\"{id}\""));
+            let is_plain = |own: &Attribute<'_, '_>| own.name() == "id" && own.namespace().is_none();
+            match node.attributes().find(is_plain) {
+                Some(empty) => self.edits.replace(empty.range_value(), id),
+                None => self.edits.insert(self.name_end(node), format!(" id=\"{id}\"")),
+            }
         }
     }
 

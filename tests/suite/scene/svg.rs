@@ -164,6 +164,16 @@ fn svg_invisible_things_are_not_drawn() {
 }
 
 #[test]
+fn svg_empty_ids_are_none() {
+    for id in ["''", "' '", "\"\"", "'' xml:id='a'", "'&#10;'"] {
+        let body = format!(
+            "<svg id={id}><g id={id}><rect id={id} {UNIT} fill='red'/><text id={id}></text></g></svg><use id={id} href='#b'/>"
+        );
+        assert_eq!(filled(&body), (100.0, RED), "{id}");
+    }
+}
+
+#[test]
 fn svg_shapes_have_their_areas() {
     let star = "points='10,0 16,19 0,7 20,7 4,19'";
     let round = std::f64::consts::PI;

@@ -246,7 +246,8 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         if !transforms::is_within_floats(to_root, look.reach) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
         }
-        let heard = heard && look.displayed && !viewports::hides(node);
+        let is_flat = name == "svg" && viewports::is_flat(node, &styled);
+        let heard = heard && look.displayed && !viewports::hides(node) && !is_flat;
         self.count(node)?;
         self.identify(node);
         self.marks.put(node, self.name_end(node), &mut self.edits);

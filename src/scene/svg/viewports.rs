@@ -1,4 +1,5 @@
-//! Viewports: what the percentages of a `use` are of, and elements that nothing is drawn of because their `viewBox` has no area.
+//! Viewports: what the percentages of a `use` are of, and elements that nothing is drawn of because their box or their `viewBox` has
+//! no area.
 //!
 //! A symbol is drawn in the box of the `use` that shows it, and percentages of that box are of what is around it. usvg takes
 //! those of its size twice, and those of its place of the size that it has found then; so they are written as numbers.
@@ -23,20 +24,28 @@ pub(super) fn resolve<'doc>(
     around: Option<DVec2>,
 ) {
     match node.tag_name().name() {
-        "svg" if hides(node) => styled.hide(),
+        "svg" if hides(node) || is_flat(node, styled) => styled.hide(),
         // What is 0 wide or high is not drawn, either.
         "marker" if hides(node) => styled.set_length("markerWidth", "0".to_owned()),
         "pattern" if hides(node) => styled.set_length("width", "0".to_owned()),
-        "use" => match elements
-            .target(node)
-            .filter(|shown| shown.tag_name().name() == "symbol")
-        {
-            Some(symbol) if hides(symbol) => styled.hide(),
-            Some(_) => symbol_in_numbers(node, styled, around),
-            None => {}
+        "use" => match elements.target(node) {
+            Some(shown) if !matches!(shown.tag_name().name(), "svg" | "symbol") => {}
+            Some(shown) if hides(shown) || is_flat(node, styled) => styled.hide(),
+            Some(shown) if shown.tag_name().name() == "symbol" => symbol_in_numbers(node, styled, around),
+            _ => {}
         },
         _ => {}
     }
+}
+
+/// Whether nothing of a nested document, or of what a `use` shows in such a box, is drawn because its width or height is zero (SVG 2,
+/// section 8.2).
+pub(super) fn is_flat(node: Node<'_, '_>, styled: &Styled<'_>) -> bool {
+    let is_zero = |name| {
+        let side = styled.length(node, name).map(|side| side.trim().parse::<Length>());
+        matches!(side, Some(Ok(side)) if side.number == 0.0)
+    };
+    node.parent_element().is_some() && (is_zero("width") || is_zero("height"))
 }
 
 /// Whether nothing of an element is drawn because its `viewBox` has no area (SVG 2, section 8.6). A root is drawn, as most

@@ -95,6 +95,31 @@ fn view_boxes_without_area_hide_their_element() {
 }
 
 #[test]
+fn nested_documents_without_width_or_height_are_not_drawn() {
+    const RECT: &str = "<rect width='9' height='9' mask='x'/>";
+    for flat in [
+        format!("<svg width='0' height='9'>{RECT}</svg>"),
+        format!("<svg width='9' height=' 0% ' viewBox='0 0 9 9'>{RECT}</svg>"),
+        format!("<svg style='height:0px'>{RECT}</svg>"),
+        format!("<svg width='0em'><svg width='9' height='9'>{RECT}</svg></svg>"),
+    ] {
+        let scene = read(&svg("width='200' height='200'", &flat), DialectChoice::Svg);
+        assert_eq!((kinds(&scene), lines(&scene)), (Vec::new(), Vec::new()), "{flat}");
+    }
+    for shows in ["width='0'", "height='0'", "style='width:0'"] {
+        assert_eq!(drawn(&symbol(&format!("<use href='#s' {shows}/>"))), [], "{shows}");
+        let document = format!("<defs><svg id='d' width='9' height='9'>{RECT}</svg></defs><use href='#d' {shows}/>");
+        assert_eq!(drawn(&document), [], "{shows}");
+    }
+    for seen in [
+        "<svg width='-1' height='9'><rect width='9' height='9'/></svg>",
+        "<defs><g id='g'><rect width='9' height='9'/></g></defs><use href='#g' width='0'/>",
+    ] {
+        assert_eq!(drawn(seen).len(), 1, "{seen}");
+    }
+}
+
+#[test]
 fn styles_say_where_nested_documents_and_copies_lie() {
     const RECT: &str = "<rect width='100%' height='100%' fill='red'/>";
     for (style, attributes) in [

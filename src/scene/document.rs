@@ -228,11 +228,6 @@ impl<'doc> Source<'doc> {
         let limits = [
             (survey.tags, MAX_TAGS, "tags"),
             (survey.attributes, MAX_ATTRIBUTES, "attributes"),
-            (
-                survey.most_attributes,
-                MAX_ATTRIBUTES_OF_ONE,
-                "attributes of one element",
-            ),
             (survey.prefixes.len(), MAX_PREFIXES, "prefixes of namespaces"),
             (
                 survey.declarations,
@@ -244,6 +239,14 @@ impl<'doc> Source<'doc> {
             if count > limit {
                 return Err(Problem::TooMany { what, limit }.nowhere());
             }
+        }
+        if survey.most_attributes > MAX_ATTRIBUTES_OF_ONE {
+            let problem = Problem::TooMuch {
+                what: "attributes of one element",
+                limit: MAX_ATTRIBUTES_OF_ONE,
+                cure: "leave out those that SVG does not know",
+            };
+            return Err(problem.at(LineIndex::new(original).locate(survey.fullest_tag)));
         }
         entities::check(original)?;
         let is_forgotten = || original.contains(" xlink:") && !original.contains("xmlns:xlink");
@@ -349,6 +352,8 @@ struct Survey<'text> {
     tags: usize,
     attributes: usize,
     most_attributes: usize,
+    /// Where the tag begins that has the most.
+    fullest_tag: usize,
     /// Declarations of namespaces, and their different prefixes; the default one has an empty prefix.
     declarations: usize,
     prefixes: HashSet<&'text [u8]>,
@@ -408,7 +413,9 @@ impl<'text> Survey<'text> {
                 _ => {}
             }
         }
-        self.most_attributes = self.most_attributes.max(attributes);
+        if attributes > self.most_attributes {
+            (self.most_attributes, self.fullest_tag) = (attributes, offset);
+        }
         let name = markup.iter().skip(1).take_while(|b| !b" \t\r\n/>".contains(b)).count();
         self.root_name_end.get_or_insert(offset + 1 + name);
         length
@@ -570,6 +577,7 @@ mod tests {
             tags: 6,
             attributes: 7,
             most_attributes: 2,
+            fullest_tag: 35,
             declarations: 0,
             prefixes: HashSet::new(),
             root_name_end: Some(39),
@@ -619,9 +627,15 @@ mod tests {
     #[test]
     fn source_refuses_what_runs_away() {
         let attributes = " a=''".repeat(MAX_ATTRIBUTES_OF_ONE + 1);
+        let fault = Source::new(&format!("<svg>\n<g{attributes}/></svg>")).map(|_| ());
+        let fault = fault.expect_err("attributes of one element");
+        assert_eq!(fault.location, Some(place(2, 1)), "where it is");
         assert!(
-            Source::new(&format!("<svg{attributes}/>")).is_err(),
-            "attributes of one element"
+            fault
+                .problem
+                .to_string()
+                .ends_with("leave out those that SVG does not know"),
+            "a cure"
         );
         let declared = |count: usize, prefixes: usize| {
             let one = |i: usize| format!("<g xmlns:p{}=''/>", i % prefixes);

@@ -42,6 +42,8 @@ pub(super) struct Graph<'doc> {
     inherited: HashMap<usize, [Option<&'doc str>; 2]>,
     /// The references that close circles, by the elements that have them.
     circular: HashMap<NodeId, Vec<Link<'doc>>>,
+    /// Elements that are not drawn, whatever is inside.
+    left_out: HashSet<NodeId>,
 }
 
 /// Elements that are drawn elsewhere, but with what they inherit where they stand.
@@ -71,9 +73,20 @@ impl<'doc> Graph<'doc> {
             ids,
             inherited,
             circular: HashMap::new(),
+            left_out: HashSet::new(),
         };
         graph.circular = graph.find_circles(root);
         graph
+    }
+
+    /// Notes an element that is not drawn, whatever is inside.
+    pub(super) fn leave_out(&mut self, node: Node<'doc, 'doc>) {
+        self.left_out.insert(node.id());
+    }
+
+    /// Whether an element is such a one.
+    pub(super) fn is_left_out(&self, node: Node<'doc, 'doc>) -> bool {
+        self.left_out.contains(&node.id())
     }
 
     /// Whether there is any circle.
@@ -99,6 +112,9 @@ impl<'doc> Graph<'doc> {
     /// What is inside an element, and what it refers to, but for references that lead in circles; markers after all that they may be
     /// drawn on. Notes what is not there.
     pub(super) fn links(&self, node: Node<'doc, 'doc>, unmet: &mut Vec<Unmet<'doc>>) -> Vec<Link<'doc>> {
+        if self.is_left_out(node) {
+            return Vec::new();
+        }
         let inside = |to| Link { by: By::Inside, to };
         let mut links: Vec<Link<'doc>> = node.children().filter(Node::is_element).map(inside).collect();
         links.extend(self.references(node, unmet));

@@ -9,7 +9,7 @@ use super::elements::Elements;
 use super::{nonsense, own_triangles, values};
 use crate::scene::edits::Edits;
 use crate::scene::report::quote;
-use crate::scene::{attributes, numbers};
+use crate::scene::{attributes, media, numbers};
 
 /// White space as XML knows it.
 const SPACE: [char; 4] = [' ', '\t', '\n', '\r'];
@@ -172,6 +172,15 @@ pub(super) fn style_elsewhere(root: Node<'_, '_>) -> Option<&'static str> {
     let mut instructions = root.document().root().children().filter_map(|node| node.pi());
     let is_sheet = instructions.any(|instruction| instruction.target == "xml-stylesheet");
     is_sheet.then_some("<?xml-stylesheet?> has no effect; other style sheets are not fetched: put it into a <style>")
+}
+
+/// What is to be said of a sheet that is left out because of a condition.
+pub(super) fn other_media(sheet: Node<'_, '_>) -> Option<String> {
+    let list = sheet.attribute("media").filter(|list| media::applies(list).is_none())?;
+    Some(format!(
+        "has no effect: whether media=\"{}\" holds is not looked at",
+        quote(list)
+    ))
 }
 
 /// What is to be said of a root that other programs take for no drawing, as it is not in the namespace `svg`.

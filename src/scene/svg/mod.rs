@@ -19,6 +19,7 @@ mod families;
 mod fonts;
 mod graph;
 mod guarded;
+mod left_out;
 mod listener;
 mod marked;
 mod mended;

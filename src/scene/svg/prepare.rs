@@ -11,21 +11,16 @@ use super::graph::{Circular, Graph};
 use super::listener::Listener;
 use super::marked::Marks;
 use super::styles::Styles;
-use super::{cascade, mended, nonsense, own_triangles, sheets, styles, text_paths, transforms, viewports};
+use super::{cascade, left_out, mended, nonsense, own_triangles, sheets, styles, text_paths, transforms, viewports};
 use crate::scene::edits::Edits;
 use crate::scene::error::Fault;
-use crate::scene::report::quote;
-use crate::scene::{Problem, SkippedKind, attributes, media, numbers};
+use crate::scene::{Problem, SkippedKind, attributes, numbers};
 
 /// Most elements that usvg reads, those that a `use` repeats counted again.
 pub(super) const MAX_ELEMENTS: usize = 1_000_000;
 
 /// Elements inside each other, at most: each takes usvg's stack.
 const MAX_DEPTH: usize = 1_000;
-
-/// Most bytes of one text, and how many a span counts for.
-const MAX_TEXT: usize = 20_000;
-const SPAN: usize = 8;
 
 /// Most stops of a gradient.
 const MAX_STOPS: usize = 100_000;
@@ -224,12 +219,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             }
             return Ok(None);
         }
-        if let Some(why) = text_paths::in_vain(node, &self.elements).filter(|_| name == "textPath") {
-            if heard {
-                self.listener.warn(node, why.to_owned());
-            }
-            // What follows stands where it would without this.
-            self.edits.replace(node.range(), String::new());
+        if self.leave_out(node, heard) {
             return Ok(None);
         }
         let is_told =
@@ -284,6 +274,19 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         .filter(|open| open.node.has_children()))
     }
 
+    /// Takes letters out that nobody draws, and tells whoever hears it; whether they are.
+    fn leave_out(&mut self, node: Node<'doc, 'doc>, heard: bool) -> bool {
+        let Some((why, instead)) = left_out::letters(node, &self.elements) else {
+            return false;
+        };
+        if heard {
+            self.listener.warn(node, why);
+        }
+        self.edits.replace(node.range(), instead.to_owned());
+        self.graph.leave_out(node);
+        true
+    }
+
     /// Takes an element's addresses out that lead in circles; tells of them, and of what its styles have for others, to whoever hears it.
     fn open_circles(&mut self, node: Node<'doc, 'doc>, circular: &[Circular<'doc>], heard: Option<&Styled<'doc>>) {
         let mut told = heard.map_or(Vec::new(), |styled| styled.circles.clone());
@@ -316,30 +319,18 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
     }
 
-    /// Refuses more elements than usvg reads, and what takes it time that grows with the square of its length.
+    /// Refuses more elements than usvg reads, and more stops of a gradient.
     fn count(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
         self.read += usize::from(!matches!(node.tag_name().name(), "style" | "texture"));
         if self.read > MAX_ELEMENTS {
             let (what, limit) = ("elements", MAX_ELEMENTS);
             return Err(self.listener.fault(Problem::TooMany { what, limit }, node, ""));
         }
-        let (what, limit, count) = match node.tag_name().name() {
-            "text" => {
-                let length = |node: Node<'_, '_>| {
-                    if node.is_element() {
-                        SPAN
-                    } else {
-                        node.text().map_or(0, str::len)
-                    }
-                };
-                let what = "characters in one text, where each element inside counts as 8";
-                (what, MAX_TEXT, node.descendants().map(length).sum())
-            }
-            "linearGradient" | "radialGradient" => ("stops of one gradient", MAX_STOPS, node.children().count()),
-            _ => return Ok(()),
-        };
-        if count > limit {
-            return Err(self.listener.fault(Problem::TooMany { what, limit }, node, ""));
+        let is_gradient = matches!(node.tag_name().name(), "linearGradient" | "radialGradient");
+        if is_gradient && node.children().count() > MAX_STOPS {
+            let (what, limit) = ("stops of one gradient", MAX_STOPS);
+            let cure = "leave out those that nobody sees";
+            return Err(self.listener.fault(Problem::TooMuch { what, limit, cure }, node, ""));
         }
         Ok(())
     }
@@ -378,23 +369,13 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             for part in node.children().filter(Node::is_text) {
                 nonsense::hide_profiles(self.text, part.range(), &mut self.edits);
             }
-            self.other_media(node);
+            if let Some(message) = mended::other_media(node) {
+                self.listener.warn(node, message);
+            }
             for (at, message) in nonsense::names_in_sheet(self.text, node) {
                 self.edits.insert(at, nonsense::UNREAD.to_owned());
                 self.listener.warn_at(at, node, message);
             }
-        }
-    }
-
-    /// Tells of a sheet that is left out because of a condition.
-    fn other_media(&mut self, sheet: Node<'doc, 'doc>) {
-        let media = sheet.attribute("media");
-        if let Some(list) = media.filter(|list| media::applies(list).is_none()) {
-            let message = format!(
-                "has no effect: whether media=\"{}\" holds is not looked at",
-                quote(list)
-            );
-            self.listener.warn(sheet, message);
         }
     }
 

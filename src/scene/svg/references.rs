@@ -206,12 +206,26 @@ impl<'doc> Search<'_, 'doc> {
             links: links.into_iter(),
             by,
             times,
-            found: Found::alone(to),
+            found: if self.graph.is_left_out(to) {
+                Found::NOTHING
+            } else {
+                Found::alone(to)
+            },
         }
     }
 }
 
 impl Found {
+    /// An element that is left out.
+    const NOTHING: Self = Self {
+        work: 1,
+        depth: 1,
+        numbers: 0,
+        is_shared: false,
+        corners: 0,
+        paths: 0,
+    };
+
     /// An element without what is inside and what it refers to.
     fn alone(node: Node<'_, '_>) -> Self {
         let data = node.attribute("d").or_else(|| node.attribute("points"));
@@ -224,13 +238,12 @@ impl Found {
             _ => 0,
         };
         Self {
-            work: 1,
-            depth: 1,
             is_shared: matches!(node.tag_name().name(), "linearGradient" | "radialGradient"),
             numbers: numbers.saturating_add(OF_A_LETTER * letters),
             // Most corners have two numbers or more.
             corners: numbers.div_ceil(2),
             paths: 1,
+            ..Self::NOTHING
         }
     }
 

@@ -10,13 +10,14 @@ use std::io::Read as _;
 use roxmltree::{Document, Error, ParsingOptions};
 
 use super::declarations::mended;
+use super::edits::Edits;
 use super::error::Fault;
 use super::places::Places;
 use super::plain_styles::PlainStyles;
 use super::report::shorten;
 use super::selectors::rewritten;
 use super::substitutes::substituted;
-use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, entities};
+use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, css, entities};
 
 /// Most elements, texts and comments in a document.
 const MAX_NODES: u32 = 4_000_000;
@@ -285,6 +286,24 @@ impl<'doc> Source<'doc> {
             ..ParsingOptions::default()
         };
         Document::parse_with_options(&self.text, options).map_err(|error| self.explain(&error))
+    }
+
+    /// The original document with the values of its attributes in the usual case, as long as before, if any is in another: CSS takes
+    /// them in any, and the course's reader does not.
+    pub(super) fn in_usual_case(&self, tree: &Document<'_>) -> Option<String> {
+        let mut edits = Edits::default();
+        let attributes = tree.descendants().flat_map(|node| node.attributes());
+        for attribute in attributes.filter(|attribute| attribute.namespace().is_none()) {
+            let value = attribute.value();
+            let start = self.original_offset(attribute.range_value().start);
+            for (place, usual) in css::other_case(attribute.name(), value) {
+                // References to entities move what stands behind them.
+                if self.original.get(start..start + value.len()) == Some(value) {
+                    edits.replace(start + place.start..start + place.end, usual);
+                }
+            }
+        }
+        changed(edits.apply_to(Cow::Borrowed(self.original)))
     }
 
     /// The XML library's error, with its place in the original document.

@@ -177,11 +177,16 @@ fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources, progre
         return Err(Problem::NotSvg(name).at(lines.locate(source.original_offset(root.range().start))));
     }
     let (dialect, other) = options.dialect.resolve(root);
+    let usual = (dialect == Dialect::Svg).then(|| source.in_usual_case(&tree)).flatten();
+    let again = usual.as_deref().map(Source::new).transpose()?;
+    let tree_again = again.as_ref().map(Source::parse).transpose()?;
+    let (source, tree) = again.as_ref().zip(tree_again.as_ref()).unwrap_or((&source, &tree));
+    let root = tree.root_element();
     let alpha = match dialect {
         Dialect::Course => Alpha::Drop,
         Dialect::Svg => Alpha::Keep,
     };
-    let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha), progress);
+    let mut builder = Builder::new(source, &lines, TextureTable::new(resources, alpha), progress);
     let canvas = match dialect {
         Dialect::Course => {
             let canvas = CourseReader::read(&mut builder, root)?;
@@ -202,7 +207,7 @@ fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources, progre
     room.map_err(|error| Problem::from(error).nowhere())?;
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
-    scene.words = words::of(&tree);
+    scene.words = words::of(tree);
     scene.files.named = named_files::below(root);
     Ok(scene)
 }

@@ -309,7 +309,10 @@ fn is_odd(style: &str) -> bool {
     let is_between = |c: char| c.is_ascii_whitespace() || matches!(c, ':' | ';' | '!');
     let is_marked = |after: &str| !after.trim_start().starts_with("important");
     let is_odd_word = |word: &str| css::plain_word("", word).is_some_and(|plain| plain != word);
-    style.contains('\\') || style.split('!').skip(1).any(is_marked) || style.split(is_between).any(is_odd_word)
+    style.contains('\\')
+        || style.split('!').skip(1).any(is_marked)
+        || style.split(is_between).any(is_odd_word)
+        || css::is_in_other_case(style)
 }
 
 #[cfg(test)]
@@ -401,7 +404,14 @@ mod tests {
         ] {
             assert!(!is_odd(stays), "{stays}");
         }
-        for odd in ["fill:unset", "fill:INHERIT", "x:Revert", "fill:red ! Important"] {
+        for odd in [
+            "fill:unset",
+            "fill:INHERIT",
+            "x:Revert",
+            "fill:red ! Important",
+            "Fill:red",
+            "fill:None",
+        ] {
             assert!(is_odd(odd), "{odd}");
         }
     }

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::plain::Plain;
-use super::selectors;
 use super::tokens::{Brackets, Kind, Token, Tokens, inside, unescaped};
+use super::{letter_case, selectors};
 
 /// Words that every property knows (CSS Cascading 5, section 7.3).
 const EVERYWHERE: [&str; 5] = ["inherit", "initial", "unset", "revert", "revert-layer"];
@@ -144,7 +144,8 @@ fn declaration(css: &str, piece: &[Token], brackets: &Brackets, plain: &mut Plai
         }
     }
     let (value, is_important) = without_mark(css, value);
-    let text = value_text(css, value).map(|text| text + &brackets.closers().collect::<String>());
+    let text = value_text(css, value, letter_case::has_names(&name_text))
+        .map(|text| text + &brackets.closers().collect::<String>());
     let Some(text) = text.filter(|text| !text.is_empty()) else {
         return;
     };
@@ -177,8 +178,8 @@ fn without_mark<'t>(css: &str, value: &'t [Token]) -> (&'t [Token], bool) {
     }
 }
 
-/// The text of a value; `None` where it is none.
-fn value_text(css: &str, value: &[Token]) -> Option<String> {
+/// The text of a value, whose words may be anybody's names; `None` where it is none.
+fn value_text(css: &str, value: &[Token], has_names: bool) -> Option<String> {
     let mut written = String::new();
     let mut brackets = Brackets::default();
     for token in value {
@@ -189,9 +190,17 @@ fn value_text(css: &str, value: &[Token]) -> Option<String> {
             Kind::Close if !has_closed => return None,
             Kind::Blank | Kind::Comment => written.push(' '),
             Kind::Quoted => written += &string(text),
-            Kind::Url if !text.ends_with(')') => written.extend([text, ")"]),
-            Kind::Name | Kind::Function | Kind::Hash | Kind::Number | Kind::At => written += &word(text),
-            _ => written += text,
+            kind => {
+                let is_word = matches!(kind, Kind::Name | Kind::Function | Kind::Hash | Kind::Number | Kind::At);
+                let plain = if is_word { word(text) } else { Cow::Borrowed(text) };
+                let usual = letter_case::usual(kind, &plain).filter(|_| !has_names);
+                written += usual.as_deref().unwrap_or(&plain);
+                written += if kind == Kind::Url && !text.ends_with(')') {
+                    ")"
+                } else {
+                    ""
+                };
+            }
         }
     }
     Some(written)
@@ -247,6 +256,14 @@ mod tests {
             ("stroke:none; /* c */ fill:/**/red/**/", "stroke:none;fill:red;"),
             ("undefined;12px;a:;:b;a:b);c:'d\ne:f;g:url(a b);fill:red", "fill:red;"),
             ("--X:{a:b};c:rgb(1,2", "--X:{a:b};c:rgb(1,2);"),
+            (
+                "display:NONE;stroke:RGB(1,2,3);r:2PX;mask:URL(#Ab)",
+                "display:none;stroke:rgb(1,2,3);r:2px;mask:url(#Ab);",
+            ),
+            (
+                "fill:CurrentColor;font:2PX Ab;content:'A';--x:B",
+                "fill:currentColor;font:2PX Ab;content:'A';--x:B;",
+            ),
             (
                 "*zoom:1;fill:url(#a;b) red;b:url( \"c;d\" )",
                 "fill:url(#a;b) red;b:url( \"c;d\" );",

@@ -240,6 +240,10 @@ fn nested(
     let text = document::decode(&unpacked)?;
     let source = Source::new(&text)?;
     let tree = source.parse()?;
+    let usual = source.in_usual_case(&tree);
+    let again = usual.as_deref().map(Source::new).transpose()?;
+    let tree_again = again.as_ref().map(Source::parse).transpose()?;
+    let (source, tree) = again.as_ref().zip(tree_again.as_ref()).unwrap_or((&source, &tree));
     let root = tree.root_element();
     if root.tag_name().name() != "svg" {
         return Err(Problem::NotSvg(root.tag_name().name().to_owned()).nowhere());
@@ -263,7 +267,7 @@ fn nested(
     };
     let tree = self::tree(&prepared.text, fonts, loading, load).map_err(Problem::nowhere)?;
     let tree = tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())?;
-    let (triangles, report) = own_triangles::drawn(&source, prepared.elements.triangles(), |address| {
+    let (triangles, report) = own_triangles::drawn(source, prepared.elements.triangles(), |address| {
         lock(loading).builder.textures.request(address.to_owned(), location)
     });
     let heard = &mut lock(loading).builder.report;

@@ -4,7 +4,7 @@ use rasterscope::color::Rgba;
 use rasterscope::scene::{DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
 use super::svg::bounds;
-use crate::support::documents::{area, kinds, lines, svg, svg_scene, try_read};
+use crate::support::documents::{area, kinds, lines, read, svg, svg_scene, try_read};
 
 const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
 const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
@@ -260,7 +260,7 @@ fn backgrounds_of_pages_are_told() {
     use rasterscope::scene::DialectChoice;
     let told = |root: &str, inside: &str| {
         let text = format!("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9' {root}>{inside}</svg>");
-        lines(&crate::support::documents::read(&text, DialectChoice::Svg))
+        lines(&read(&text, DialectChoice::Svg))
     };
     for (root, inside, name, color) in [
         ("style='background:#223'", "", "background", "#222233"),
@@ -420,4 +420,55 @@ fn rules_that_may_be_those_of_every_element_are_bounded() {
         error.ends_with("comparisons of elements with style sheets; select by classes and ids, or by fewer rules"),
         "{error}"
     );
+}
+
+#[test]
+fn words_functions_and_units_count_in_any_case() {
+    const GRADIENT: &str =
+        "<linearGradient id='G'><stop stop-color='Red'/><stop offset='1' stop-color='BLUE'/></linearGradient>";
+    for (other, usual) in [
+        ("style='display:None'", "style='display:none'"),
+        ("style='FILL:Red'", "fill='red'"),
+        ("display='NONE'", "display='none'"),
+        (
+            "fill='None' stroke='CurrentColor' color='Lime'",
+            "fill='none' stroke='lime'",
+        ),
+        ("fill='URL(#G)'", "fill='url(#G)'"),
+        ("style='fill:URL(\"#G\")'", "fill='url(#G)'"),
+        (
+            "stroke='red' stroke-width='3PX' stroke-linejoin='Round'",
+            "stroke='red' stroke-width='3' stroke-linejoin='round'",
+        ),
+        ("fill='OKLCH(0.5 0.1 140DEG)'", "fill='oklch(0.5 0.1 140deg)'"),
+        ("x='.25IN'", "x='24'"),
+        ("style='transform:TranslateX(9Px)'", "transform='translate(9)'"),
+        ("class='c'", "visibility='hidden'"),
+    ] {
+        let scene = |attributes: &str| {
+            let sheet = "<style>.c{VISIBILITY:Hidden}</style>";
+            svg_scene(&format!("{sheet}{GRADIENT}<rect {attributes} width='20' height='30'/>"))
+        };
+        let [other_scene, usual_scene] = [other, usual].map(scene);
+        assert_eq!(kinds(&other_scene), kinds(&usual_scene), "{other}");
+        assert_eq!(lines(&other_scene), lines(&usual_scene), "{other}");
+    }
+    let [middle, start] = ["Middle", "Start"].map(|anchor| {
+        svg_scene(&format!(
+            "<text x='50' y='50' text-anchor='{anchor}' font-family='Hack'>A</text>"
+        ))
+    });
+    assert_ne!(kinds(&middle), kinds(&start), "anchors");
+    let course = read(
+        &svg("width='20' height='20'", "<rect width='9' height='9' fill='None'/>"),
+        DialectChoice::Course,
+    );
+    assert_eq!(kinds(&course).len(), 1, "the course knows small letters only");
+}
+
+#[test]
+fn places_are_those_of_the_document_in_another_case() {
+    let scene = svg_scene("\n<rect fill='None' width='9' height='9'/>\n<rect mask='Nowhere' width='9' height='9'/>");
+    let told = lines(&scene);
+    assert!(told.len() == 1 && told[0].starts_with("3:"), "{told:?}");
 }

@@ -22,6 +22,7 @@ mod guarded;
 mod left_out;
 mod listener;
 mod marked;
+mod markers;
 mod mended;
 mod nonsense;
 mod own_fonts;
@@ -103,6 +104,7 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
     let scale = FINE_FOR / canvas.max_element();
     let mut painter = Painter::new(builder, root, &prepared.elements, &pictures, scale);
     painter.effects = Rc::new(Effects::below(root));
+    painter.markers = Rc::new(prepared.markers);
     painter.tree(&tree)?;
     Ok(canvas)
 }

@@ -2,6 +2,7 @@
 
 use glam::DAffine2;
 use roxmltree::Node;
+use usvg::tiny_skia_path::Path as TheirPath;
 use usvg::{ClipPath, Group, Image, ImageKind, ImageRendering, Path};
 
 use super::own_triangles::{self, Drawn};
@@ -93,11 +94,13 @@ impl<'doc> Painter<'_, 'doc> {
         let around = place.shape;
         // The marks of the path before, which follow it.
         let mut marks = None;
+        let mut marked = None;
         for node in group.children() {
+            let before = marked.take();
             match node {
                 usvg::Node::Group(group) => {
                     let shape = marks.filter(|_| group.id().is_empty()).unwrap_or(place.shape);
-                    self.group(group, Place { shape, ..place })?;
+                    self.behind(before, group, Place { shape, ..place })?;
                 }
                 usvg::Node::Text(text) => {
                     let shape = self.leaf(text.id(), place.shape);
@@ -106,12 +109,32 @@ impl<'doc> Painter<'_, 'doc> {
                 usvg::Node::Path(path) => {
                     let found = self.elements.find(path.id());
                     self.painting = found.or_else(|| self.used.last()?.left.last().copied());
+                    marked = self.painting.map(|node| (node, path.data()));
                     place.shape = self.leaf(path.id(), around);
                     marks = found.and_then(|node| self.shape_of_marks(node));
                     self.path(path, place)?;
                 }
                 usvg::Node::Image(image) => self.image(image, place)?,
             }
+        }
+        Ok(())
+    }
+
+    /// Paints a group behind an outline, whose markers it may hold.
+    fn behind(
+        &mut self,
+        outline: Option<(Node<'doc, 'doc>, &TheirPath)>,
+        group: &Group,
+        place: Place,
+    ) -> Result<(), Fault> {
+        let outline = outline.filter(|_| self.inside.is_none());
+        let turns = outline.and_then(|(node, outline)| self.markers.turns(node, outline, group));
+        let Some(turns) = turns else {
+            return self.group(group, place);
+        };
+        for (marker, turn) in turns {
+            let to_user = place.to_user * turn;
+            self.group(marker, Place { to_user, ..place })?;
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ use glam::DAffine2;
 use roxmltree::Node;
 
 use super::elements::Elements;
+use super::markers::Markers;
 use super::own_triangles::Drawn;
 use super::pictures::Picture;
 use super::styles::Effects;
@@ -23,6 +24,7 @@ pub(super) struct Painter<'a, 'doc> {
     pub(super) elements: &'a Elements<'doc>,
     pub(super) pictures: &'a [Picture],
     pub(super) effects: Rc<Effects>,
+    pub(super) markers: Rc<Markers<'doc>>,
     /// Samples per canvas unit for which edges of curves are fine enough.
     pub(super) scale: f64,
     pub(super) servers: Servers,
@@ -93,6 +95,7 @@ impl<'a, 'doc> Painter<'a, 'doc> {
             elements,
             pictures,
             effects: Rc::default(),
+            markers: Rc::default(),
             scale,
             servers: Servers::default(),
             texture_files: TextureFiles::below(root),

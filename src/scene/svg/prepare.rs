@@ -10,6 +10,7 @@ use super::elements::Elements;
 use super::graph::{Circular, Graph};
 use super::listener::Listener;
 use super::marked::Marks;
+use super::markers::Markers;
 use super::styles::Styles;
 use super::{cascade, left_out, mended, nonsense, own_triangles, sheets, styles, text_paths, transforms, viewports};
 use crate::scene::edits::Edits;
@@ -77,6 +78,7 @@ pub(super) struct Prepared<'doc> {
     pub(super) letters: Option<Node<'doc, 'doc>>,
     /// How its elements lead to each other.
     pub(super) graph: Graph<'doc>,
+    pub(super) markers: Markers<'doc>,
 }
 
 /// Gathers the changes to one document.
@@ -91,6 +93,7 @@ struct Preparation<'a, 'doc, L> {
     /// How many elements usvg will have to read, at least.
     read: usize,
     marks: Marks<'a>,
+    markers: Markers<'doc>,
     names: own_triangles::Names,
     /// Whether it is told that coordinates are rounded.
     is_far_told: bool,
@@ -113,16 +116,19 @@ pub(super) fn prepare<'doc, L: Listener>(
             "styles of path, polygon or polyline hold for colortri and textri, too: select the others by a class";
         listener.warn(root, message.to_owned());
     }
+    let elements = Elements::below(root);
+    let markers = Markers::below(root, &elements);
     let mut preparation = Preparation {
         text,
         edits,
-        elements: Elements::below(root),
+        elements,
         images: Vec::new(),
         letters: None,
         cascade: Cascade::below(root, graph.has_circles()),
         graph,
         read: 0,
         marks,
+        markers,
         names,
         is_far_told: false,
         listener,
@@ -146,6 +152,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         images,
         letters,
         graph,
+        markers,
         ..
     } = preparation;
     Ok(Prepared {
@@ -154,6 +161,7 @@ pub(super) fn prepare<'doc, L: Listener>(
         images,
         letters,
         graph,
+        markers,
     })
 }
 
@@ -255,6 +263,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         }
         match name {
             "image" => self.image(node, heard),
+            "path" => self.markers.end_drawn(self.text, node, &mut self.edits),
             "textPath" => {
                 let id = self.elements.outline(node.id().get_usize());
                 text_paths::move_own(self.text, node, (&id, self.name_end(node)), &mut self.edits);

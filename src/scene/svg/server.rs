@@ -158,12 +158,14 @@ impl<'doc> Painter<'_, 'doc> {
             .and_then(|inside| Some((builder.shapes.get(inside.image.0 as usize)?.clone(), inside.triangles)));
         let names = std::mem::take(&mut self.servers.names);
         let effects = Rc::clone(&self.effects);
+        let markers = Rc::clone(&self.markers);
         let told = std::mem::take(&mut self.told);
         let mut back = (HashMap::new(), HashSet::new());
         let drawn = builder.apart(size, |builder| {
             let mut painter = Painter::new(builder, root, elements, pictures, scale);
             painter.servers.names = names;
             painter.effects = effects;
+            painter.markers = markers;
             painter.told = told;
             let shape = match image {
                 Some((shape, triangles)) => {

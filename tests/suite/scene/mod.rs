@@ -5,6 +5,7 @@ mod drawing_files;
 mod drawings;
 mod gallery;
 mod hostile_drawings;
+mod markers;
 mod own_triangles;
 mod promised;
 mod styles;

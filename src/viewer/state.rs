@@ -302,6 +302,12 @@ impl Viewer {
         self.lesson.as_ref().map(|walk| (&walk.lesson, walk.at))
     }
 
+    /// Whether the scene is shown that the open lesson's step speaks of, and not another one of the list; false without a lesson.
+    pub fn shows_scene_of_step(&self) -> bool {
+        let shows = |walk: &Walk| walk.shows_step(&self.scene_list);
+        self.lesson.as_ref().is_some_and(shows)
+    }
+
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done. To be called for
     /// the scenes that a panel shows.
     pub fn request_thumbnail(&mut self, index: usize) {

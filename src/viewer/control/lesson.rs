@@ -183,7 +183,8 @@ impl Lessons<'_> {
     /// without one all of the canvas is shown in that part. Until a hand moves it. True if it was set now.
     pub(in crate::viewer) fn follow(&mut self) -> bool {
         let layout = self.ab.layout(self.settings.pixel_zoom, self.chrome);
-        let (Some(walk), Some(context)) = (&*self.lesson, self.scene_list.view_context(layout.frame_size())) else {
+        let walk = self.lesson.as_ref().filter(|walk| walk.shows_step(self.scene_list));
+        let Some((walk, context)) = walk.zip(self.scene_list.view_context(layout.frame_size())) else {
             return false;
         };
         let part = layout.free_part();

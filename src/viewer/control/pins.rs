@@ -48,11 +48,13 @@ impl Hand<'_> {
         }
     }
 
-    /// Places canvas, pin and insets where the window has them now.
-    pub(in crate::viewer) fn place(&mut self, in_lesson: bool) {
+    /// Places canvas, pin and insets where the window has them now. The steps of a lesson have views of their own.
+    pub(in crate::viewer) fn place(&mut self, shows_step: bool) {
         let layout = self.layout();
-        // A pinned pixel is to stay what it is: while there is one, no other scale comes. A lesson has views of its own.
-        if self.inspector.magnifier.pin.is_none() && !in_lesson {
+        // A pinned pixel is to stay what it is: while there is one in this scene, no other scale comes.
+        let scene = self.scene_list.identity();
+        let rests = |pin: Pin| pin.place.is_none_or(|(_, of)| of == scene);
+        if !self.inspector.magnifier.pin.is_some_and(rests) && !shows_step {
             self.scene_list.follow_free_part(&layout);
         }
         self.keep_pin_in_place();

@@ -111,8 +111,8 @@ impl Viewer {
         self.scene_list.want(self.ab.wanted_dialects(&self.settings));
         self.opening().complete_restored();
         follow_lesson(self);
-        let in_lesson = self.lesson.is_some();
-        self.hand().place(in_lesson);
+        let shows_step = self.shows_scene_of_step();
+        self.hand().place(shows_step);
         self.drawings().want_frame();
         self.drawings().update_comparison();
         self.hand().want_answers();

@@ -8,6 +8,7 @@ use crate::viewer::ab::comparison::Kept;
 use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::library::SceneEntry;
+use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
 
@@ -30,6 +31,11 @@ pub(in crate::viewer) struct Walk {
 }
 
 impl Walk {
+    /// Whether the scene is shown that the step speaks of, and not another one of the list.
+    pub(in crate::viewer) fn shows_step(&self, scenes: &SceneList) -> bool {
+        self.scenes.get(self.at) == Some(&scenes.current)
+    }
+
     /// Whether this is the view that the step set.
     pub(in crate::viewer) fn is_as_set(&self, camera: Option<Camera>) -> bool {
         self.shown.is_some_and(|(shown, _)| camera == Some(shown))

@@ -276,3 +276,35 @@ fn explanation_comes_back_on_its_side_behind_a_lesson() {
         assert_eq!(state(&session), before, "room, pin and view of the pixel at {at:?}");
     }
 }
+
+/// Scenes that a hand opens.
+const FILES: [&str; 2] = ["svg/basic/test1.svg", "svg/basic/test4.svg"];
+
+fn open(session: &mut Session, file: &str) {
+    session.command(Command::Scenes(SceneCommand::Open(vec![PathBuf::from(file)])));
+    session.settle();
+}
+
+#[test]
+fn file_that_is_opened_lies_beside_the_panels() {
+    let numbers = |session: &Session| session.viewer.both().view_numbers().expect("a picture");
+    let ways: [fn() -> Session; 3] = [
+        || at_step(0, [1000, 700]),
+        // A step with a pin.
+        || at_step(EXPLAINED, [1280, 800]),
+        // A pin of a hand's, with its explanation.
+        || {
+            let mut session = session(vec![PathBuf::from(FILES[0])], [1000, 700]);
+            right_click(&mut session, [500.0, 350.0]);
+            session
+        },
+    ];
+    for (way, begin) in ways.into_iter().enumerate() {
+        let mut session = begin();
+        open(&mut session, FILES[1]);
+        let opened = numbers(&session);
+        session.command(Command::View(ViewCommand::Reset));
+        session.settle();
+        assert_eq!(opened, numbers(&session), "as Space shows it, in way {way}");
+    }
+}

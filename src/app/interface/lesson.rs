@@ -7,6 +7,7 @@ use egui::text::{CCursor, LayoutJob, TextFormat};
 use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
 
 use super::controls::{at_end, choice, command_button, tip};
+use super::look::CONTROL;
 use crate::viewer::{
     Block, Command, CommandSpec, InspectorCommand, Lesson, LessonCommand, LessonStep, Look, SceneCommand, Span, Toggle,
     Viewer, commands,
@@ -65,6 +66,30 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         });
     });
     ui.label(RichText::new(&lesson.title).size(12.0).weak());
+    ui.add_space(4.0);
+}
+
+/// What the button back to the step's own scene does.
+const SHOW_STEP: &str = "Shows the scene of this step, with its view, settings and pin. A file that you opened stays in the \
+                         list, and when the lesson is closed.";
+
+/// Says so where another scene is shown than the step speaks of, with a way back.
+pub(super) fn other_scene(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let Some((_, at)) = viewer.lesson().filter(|_| !viewer.shows_scene_of_step()) else {
+        return;
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("the text is about another scene").small());
+        at_end(ui, &["Show it"], |ui| {
+            let show = ui.add(egui::Button::new("Show it").min_size(CONTROL));
+            let show = show
+                .on_hover_text(SHOW_STEP)
+                .accessible_name("Show the scene of the step");
+            if show.clicked() {
+                commands.push(Command::Lesson(LessonCommand::Step(at)));
+            }
+        });
+    });
     ui.add_space(4.0);
 }
 

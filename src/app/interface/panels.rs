@@ -28,7 +28,10 @@ impl Interface {
             .show(ui, |ui| {
                 FocusPanel::Lesson.head(ui);
                 look::bars_beside(ui);
-                look::beside_bar(ui, |ui| lesson::head(ui, viewer, commands));
+                look::beside_bar(ui, |ui| {
+                    lesson::head(ui, viewer, commands);
+                    lesson::other_scene(ui, viewer, commands);
+                });
                 if shares && viewer.pixels().pinned().is_some() {
                     look::beside_bar(ui, |ui| lesson::pages(ui, viewer, commands));
                     if lesson::is_turned(viewer) {

@@ -147,7 +147,7 @@ pub enum LessonCommand {
     Open(LessonSource),
     /// The step of the open lesson with this index, counted from 0, as its author meant it.
     Step(usize),
-    /// Closes the lesson and brings back what was open before.
+    /// Closes the lesson and brings back what was open before. A file that was opened meanwhile stays.
     Close,
 }
 

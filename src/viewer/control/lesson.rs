@@ -88,7 +88,7 @@ impl Lessons<'_> {
     /// Shows a lesson from its first step on; what was there before comes back when it is closed.
     pub(in crate::viewer) fn begin(&mut self, lesson: Lesson, source: Option<LessonSource>) {
         let before = match self.lesson.take() {
-            Some(walk) => walk.before,
+            Some(walk) => self.with_opened(walk),
             None => Before {
                 comparison: self.ab.keep(),
                 pin: self.pinned_place(),
@@ -116,6 +116,7 @@ impl Lessons<'_> {
             scenes,
             view_pending: false,
             shown: None,
+            opened: None,
             before,
         });
         self.take_step(0);
@@ -215,6 +216,19 @@ impl Lessons<'_> {
         true
     }
 
+    /// Where another scene than the step's is shown, its pin says nothing there: it goes, and the inspector that came with it.
+    pub(in crate::viewer) fn let_go_of_pin(&mut self) {
+        let Some(walk) = self.lesson.as_ref().filter(|walk| !walk.shows_step(self.scene_list)) else {
+            return;
+        };
+        let step = walk.scenes.get(walk.at).copied();
+        let magnifier = &mut self.inspector.magnifier;
+        let of_pin = magnifier.pin.and_then(|pin| pin.place);
+        if of_pin.is_some_and(|(_, (scene, list))| Some(scene) == step && list == self.scene_list.generation) {
+            (magnifier.pin, magnifier.open) = (None, false);
+        }
+    }
+
     /// The view of this moment is the one that the step set: a pin was brought into sight.
     pub(in crate::viewer) fn take_view(&mut self) {
         let camera = self.scene_list.camera();
@@ -223,11 +237,39 @@ impl Lessons<'_> {
         }
     }
 
-    /// Closes the lesson and brings back what was open before; false where none is open.
+    /// What comes back behind a lesson, with the scenes that the user opened since it began: that which he looks at, or else the
+    /// one that he opened last, is shown then.
+    fn with_opened(&mut self, walk: Walk) -> Before {
+        let own = walk.own_scenes();
+        let is_opened = self.scene_list.current >= own;
+        let pin = self.pinned_place().filter(|_| is_opened);
+        let current = self.scene_list.current().map(|entry| entry.source.clone());
+        let shown = current.filter(|_| is_opened).or(walk.opened);
+        let mut before = walk.before;
+        let opened = self.scene_list.scenes.drain(own.min(self.scene_list.scenes.len())..);
+        // One that is among the lesson's own scenes, too, is not behind them.
+        let again = shown.clone().map(library::entry_of);
+        for entry in opened.chain(again) {
+            if before.scenes.iter().all(|known| known.source != entry.source) {
+                before.scenes.push(entry);
+            }
+        }
+        let place = |source| before.scenes.iter().position(|entry| entry.source == source);
+        // The scene from before the lesson keeps the pin that it had, unless it has another one now.
+        let is_other = |place: &usize| *place != before.current || pin.is_some();
+        if let Some(current) = shown.and_then(place).filter(is_other) {
+            let inspector = pin.is_some() || (before.inspector && before.pin.is_none());
+            (before.current, before.pin, before.inspector) = (current, pin, inspector);
+        }
+        before
+    }
+
+    /// Closes the lesson and brings back what was open before, and what the user opened meanwhile; false where none is open.
     pub(in crate::viewer) fn close(&mut self) -> bool {
-        let Some(Walk { before, .. }) = self.lesson.take() else {
+        let Some(walk) = self.lesson.take() else {
             return false;
         };
+        let before = self.with_opened(walk);
         self.chrome.messages.retract(NO_ROOM);
         self.compare(Against::Nothing);
         self.ab.forget_looks();

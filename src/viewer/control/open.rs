@@ -227,6 +227,9 @@ impl Opening<'_> {
     }
 
     fn add(&mut self, scenes: Vec<SceneEntry>) {
+        if let Some((walk, first)) = self.lesson.as_mut().zip(scenes.first()) {
+            walk.opened = Some(first.source.clone());
+        }
         let dialects = self.ab.wanted_dialects(self.settings);
         self.scene_list.add(scenes, dialects, &mut self.chrome.messages);
     }
@@ -265,6 +268,10 @@ impl Opening<'_> {
         self.settings.render = restored.spec.render;
         self.settings.render.outline = true;
         self.settings.dialect = restored.spec.dialect;
+        if let Some(walk) = self.lesson.as_mut() {
+            // Its scene stays when the lesson is closed, and looks as in the picture then, too.
+            (walk.before.settings.render, walk.before.settings.dialect) = (self.settings.render, self.settings.dialect);
+        }
         if let Some(entry) = self.scene_list.current_mut() {
             entry.camera = Camera::new(restored.spec.view);
         }

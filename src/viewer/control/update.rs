@@ -159,8 +159,9 @@ impl Viewer {
     }
 }
 
-/// Sets the view of a lesson's step where that is due; its pin stays in sight.
+/// Sets the view of a lesson's step where that is due; its pin stays in sight, and goes with its scene.
 pub(in crate::viewer) fn follow_lesson(viewer: &mut Viewer) {
+    viewer.opening().lessons().let_go_of_pin();
     if viewer.opening().lessons().follow() {
         viewer.hand().keep_pin_in_place();
         viewer.hand().reveal_pin();

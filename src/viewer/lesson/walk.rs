@@ -7,8 +7,8 @@ use glam::DVec2;
 use crate::viewer::ab::comparison::Kept;
 use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::source::LessonSource;
-use crate::viewer::library::SceneEntry;
 use crate::viewer::library::state::SceneList;
+use crate::viewer::library::{SceneEntry, SceneSource};
 use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
 
@@ -27,6 +27,8 @@ pub(in crate::viewer) struct Walk {
     /// The view as the step set it, and the free part of the frame that it was set for: while nobody moves it, it follows that
     /// part.
     pub(in crate::viewer) shown: Option<(Camera, [DVec2; 2])>,
+    /// The scene that the user opened last since the lesson began: it stays when the lesson is closed.
+    pub(in crate::viewer) opened: Option<SceneSource>,
     pub(in crate::viewer) before: Before,
 }
 
@@ -34,6 +36,11 @@ impl Walk {
     /// Whether the scene is shown that the step speaks of, and not another one of the list.
     pub(in crate::viewer) fn shows_step(&self, scenes: &SceneList) -> bool {
         self.scenes.get(self.at) == Some(&scenes.current)
+    }
+
+    /// How many scenes of the list are the lesson's; the user opened those behind them.
+    pub(in crate::viewer) fn own_scenes(&self) -> usize {
+        self.scenes.iter().max().map_or(0, |last| last + 1)
     }
 
     /// Whether this is the view that the step set.

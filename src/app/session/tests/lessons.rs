@@ -285,6 +285,11 @@ fn open(session: &mut Session, file: &str) {
     session.settle();
 }
 
+/// The scene that is shown.
+fn shown(session: &Session) -> String {
+    session.viewer.scene_list().current().expect("a scene").source.address()
+}
+
 #[test]
 fn file_that_is_opened_lies_beside_the_panels() {
     let numbers = |session: &Session| session.viewer.both().view_numbers().expect("a picture");
@@ -306,5 +311,63 @@ fn file_that_is_opened_lies_beside_the_panels() {
         session.command(Command::View(ViewCommand::Reset));
         session.settle();
         assert_eq!(opened, numbers(&session), "as Space shows it, in way {way}");
+    }
+}
+
+#[test]
+fn file_that_is_opened_in_a_lesson_stays_when_that_is_closed() {
+    let mut session = session(vec![PathBuf::from(FILES[0])], [1280, 800]);
+    let open_lesson = Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0)));
+    let before = session.viewer.settings().render;
+    session.command(open_lesson.clone());
+    session.settle();
+    click_on(&mut session, "Close the lesson");
+    assert_eq!(shown(&session), FILES[0], "nothing else was opened");
+    for goes_on in [false, true] {
+        session.command(open_lesson.clone());
+        session.settle();
+        open(&mut session, FILES[1]);
+        if goes_on {
+            click_on(&mut session, "Next scene");
+        }
+        click_on(&mut session, "Close the lesson");
+        assert_eq!(shown(&session), FILES[1], "goes on: {goes_on}");
+        let list = session.viewer.scene_list().scenes();
+        let sources: Vec<String> = list.iter().map(|entry| entry.source.address()).collect();
+        assert_eq!(sources, FILES, "what was there, and what was opened");
+        assert_eq!(session.viewer.settings().render, before, "as before the lesson");
+        open(&mut session, FILES[0]);
+    }
+}
+
+#[test]
+fn pin_of_a_step_goes_with_its_scene_and_comes_back_with_it() {
+    const SAYS: &str = "the text is about another scene";
+    for window in [[800, 600], [1280, 800]] {
+        let mut session = at_step(EXPLAINED, window);
+        let step = shown(&session);
+        let pin = session.viewer.pixels().pinned();
+        assert!(
+            pin.is_some() && !says(&mut session, SAYS),
+            "the step's own in {window:?}"
+        );
+        open(&mut session, FILES[1]);
+        assert!(says(&mut session, SAYS), "in {window:?}");
+        let inspector = session.viewer.inspector();
+        assert!(
+            session.viewer.pixels().pinned().is_none() && inspector.inset().is_none(),
+            "nothing of the step's beside a file in {window:?}"
+        );
+        // What a hand pins there stays.
+        session.command(Command::Inspector(InspectorCommand::Pin([
+            i64::from(window[0]) * 2 / 3,
+            i64::from(window[1]) / 2,
+        ])));
+        session.settle();
+        assert!(session.viewer.pixels().pinned().is_some(), "a hand's pin in {window:?}");
+        click_on(&mut session, "Show the scene of the step");
+        assert_eq!(shown(&session), step, "back in {window:?}");
+        assert_eq!(session.viewer.pixels().pinned(), pin, "its pin in {window:?}");
+        assert!(!says(&mut session, SAYS), "as the text says in {window:?}");
     }
 }

@@ -132,6 +132,7 @@ pub(super) static SCENES: &[CommandSpec] = &[
         "Brings back the scenes, settings, comparison and pin from before the lesson",
         Group::Scenes,
     )
+    .more("A file that was opened meanwhile stays")
     .run(&Command::Lesson(LessonCommand::Close)),
     spec("reload", "Reload", "Reads the scene again", Group::Scenes)
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])

@@ -21,6 +21,19 @@ pub(super) struct Chooser {
     items: Vec<Item>,
     /// Why the folder cannot be listed.
     problem: Option<String>,
+    /// The folder of a path that is being typed, and what it has; nothing where it cannot be listed.
+    typed: Option<(PathBuf, Option<Vec<Item>>)>,
+}
+
+/// A path that is being typed.
+#[derive(Clone, Debug)]
+pub(super) struct Typed {
+    /// Where it leads so far.
+    pub(super) path: PathBuf,
+    /// The folder whose files can end it.
+    folder: PathBuf,
+    /// What was typed of the name in it.
+    part: String,
 }
 
 /// A file or a folder of the list.
@@ -39,6 +52,8 @@ const PICTURE: &str = "picture";
 /// What a lesson is called in the list, and how much of it is looked at for its first step, in bytes.
 const LESSON: &str = "lesson";
 const LONGEST_HEAD: u64 = 64 << 10;
+/// How people write the path of their own folder.
+pub(super) const HOME: &str = "~";
 /// What a folder is called in the list.
 const FOLDER: &str = "folder";
 
@@ -78,6 +93,7 @@ impl Chooser {
                 .or_else(std::env::home_dir)
                 .unwrap_or_else(|| PathBuf::from("."));
         }
+        self.typed = None;
         self.list();
     }
 
@@ -99,9 +115,29 @@ impl Chooser {
 
     /// The items whose names hold this text.
     pub(super) fn shown(&self, text: &str) -> Vec<Item> {
-        let wanted = text.trim().to_lowercase();
-        let fits = |item: &&Item| item.name.to_lowercase().contains(&wanted);
-        self.items.iter().filter(fits).cloned().collect()
+        holding(&self.items, text)
+    }
+
+    /// A text that means `path`, from the folder that is listed. Behind a separator all files of a folder can follow.
+    pub(super) fn typed(&self, text: &str, path: &Path) -> Typed {
+        let path = self.folder.join(path);
+        let name = path.file_name().zip(path.parent());
+        let (folder, part) = match name {
+            Some((name, folder)) if text != HOME && !text.ends_with(std::path::is_separator) => {
+                (folder.to_owned(), name.to_string_lossy().into_owned())
+            }
+            _ => (path.clone(), String::new()),
+        };
+        Typed { path, folder, part }
+    }
+
+    /// The folder of a path that is being typed, and the items in it that may be meant; `None` where it cannot be listed.
+    pub(super) fn shown_at(&mut self, typed: &Typed) -> Option<(PathBuf, Vec<Item>)> {
+        if self.typed.as_ref().is_none_or(|(folder, _)| *folder != typed.folder) {
+            self.typed = Some((typed.folder.clone(), items(&typed.folder).ok()));
+        }
+        let (folder, items) = self.typed.as_ref()?;
+        Some((folder.clone(), holding(items.as_ref()?, &typed.part)))
     }
 
     /// The folders and the pictures.
@@ -119,6 +155,13 @@ impl Chooser {
             }
         }
     }
+}
+
+/// The items whose names hold this text.
+fn holding(items: &[Item], text: &str) -> Vec<Item> {
+    let wanted = text.trim().to_lowercase();
+    let fits = |item: &&Item| item.name.to_lowercase().contains(&wanted);
+    items.iter().filter(fits).cloned().collect()
 }
 
 /// What can be opened of a folder, folders first, by name; what is hidden is left out.

@@ -26,7 +26,7 @@ pub(super) struct Dialogs {
     pub(super) text: String,
     pub(super) problem: Option<String>,
     pub(super) chosen: usize,
-    /// The picture to compare with that arrows lead to.
+    /// The file that arrows lead to.
     pub(super) picked: Option<usize>,
     /// The path of a picture that was typed last: where it was wrong, it need not be typed again.
     path: String,

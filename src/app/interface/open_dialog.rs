@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align, Button, Context, Label, Layout, RichText, Ui, vec2};
 
+use super::chooser::{HOME, Item, Typed};
 use super::dialogs::{Dialogs, ListShown, arrows, list_of, step};
 use super::look::CONTROL;
 use super::modal::{beside, modal};
@@ -31,17 +32,17 @@ impl Dialogs {
         let modal = modal("open").show(ctx, |ui| {
             ui.set_width((screen.width() - 60.0).min(WIDTH));
             ui.heading("Open");
-            let folder = self.chooser.folder().to_owned();
-            ui.add(Label::new(RichText::new(folder.display().to_string()).weak().small()).truncate());
+            let shown = self.folder_shown();
+            ui.add(Label::new(RichText::new(shown.display().to_string()).weak().small()).truncate());
             let hint = "part of a name, or a path";
             let enter = self.line(ui, "File", hint, just_opened);
             self.problem_line(ui);
-            let found = self.chooser.shown(if is_path(&self.text) { "" } else { &self.text });
-            self.chosen = step(self.chosen, [up, down], found.len());
-            let mut taken = found
-                .get(self.chosen)
-                .filter(|_| enter && !is_path(&self.text))
-                .map(|item| item.path.clone());
+            let Listed { folder, found, chosen } = self.listed([up, down]);
+            if folder != shown {
+                // The text became another one in this pass.
+                ctx.request_repaint();
+            }
+            let mut taken = chosen.filter(|_| enter).and_then(|index| found.get(index));
             ui.scope(|ui| {
                 let row = ENTRY + BETWEEN_ENTRIES;
                 let rows = ((screen.height() * 0.8 - REST) / row).floor().clamp(1.0, MOST_ROWS);
@@ -49,12 +50,12 @@ impl Dialogs {
                 // As high for every folder: the buttons stay under the pointer.
                 ui.set_min_height(height);
                 let list = ListShown {
-                    chosen: self.chosen,
+                    chosen: chosen.unwrap_or(usize::MAX),
                     moves: up || down,
                     height,
                 };
                 list_of(ui, &found, list, |ui, item, chosen| item.show(ui, chosen))
-                    .inspect(|index| taken = found.get(*index).map(|item| item.path.clone()));
+                    .inspect(|index| taken = found.get(*index));
                 if let Some(problem) = self.chooser.problem() {
                     ui.label(RichText::new(problem).color(ui.visuals().warn_fg_color));
                 } else if found.is_empty() {
@@ -63,14 +64,14 @@ impl Dialogs {
             });
             ui.add_space(4.0);
             let pressed = foot(ui, folder.parent().is_some());
-            match (pressed, taken) {
+            match (pressed, taken.map(|item| item.path.clone())) {
                 (Some(Foot::Cancel), _) => return true,
                 (Some(Foot::Up), _) => self.enter(folder.parent()),
                 (Some(Foot::Home), _) => self.enter(std::env::home_dir().as_deref()),
                 (Some(Foot::Folder), _) => open(&folder, commands),
                 (None, Some(path)) if path.is_dir() => self.enter(Some(&path)),
                 (None, Some(path)) => open(&path, commands),
-                (None, None) if enter && is_path(&self.text) => self.go(&self.text.clone(), commands),
+                (None, None) if enter => self.go(commands),
                 (None, None) => {}
             }
             false
@@ -144,24 +145,65 @@ impl Dialogs {
     fn enter(&mut self, folder: Option<&Path>) {
         if let Some(folder) = folder {
             self.chooser.go_to(folder);
-            (self.text, self.chosen, self.problem) = (String::new(), 0, None);
+            (self.text, self.picked, self.problem) = (String::new(), None, None);
         }
     }
 
-    /// Opens the file of a typed path, or lists its folder.
-    fn go(&mut self, text: &str, commands: &mut Vec<Command>) {
+    /// The path that is being typed, if it is one and not a part of a name.
+    fn typed(&self) -> Option<Typed> {
         let argument = commands::find("open").and_then(|spec| spec.argument);
-        let Some(Ok(Command::Scenes(SceneCommand::Open(paths)))) = argument.map(|argument| argument.parse(text)) else {
-            return;
+        let text = is_path(&self.text).then(|| self.text.trim())?;
+        match argument?.parse(text) {
+            Ok(Command::Scenes(SceneCommand::Open(paths))) => Some(self.chooser.typed(text, paths.first()?)),
+            _ => None,
+        }
+    }
+
+    /// The folder whose files are listed: that of a path that is being typed, if there is such a one.
+    fn folder_shown(&mut self) -> PathBuf {
+        let at_typed = self.typed().and_then(|typed| self.chooser.shown_at(&typed));
+        at_typed.map_or_else(|| self.chooser.folder().to_owned(), |(folder, _)| folder)
+    }
+
+    /// What is listed after these arrows, and what of it Enter opens: where no arrow chose it, what a typed path names, or the
+    /// first whose name holds what was typed.
+    fn listed(&mut self, turn: [bool; 2]) -> Listed {
+        let typed = self.typed();
+        let (folder, found) = match &typed {
+            Some(typed) => self.chooser.shown_at(typed).unwrap_or_default(),
+            None => (self.chooser.folder().to_owned(), self.chooser.shown(&self.text)),
         };
-        let Some(path) = paths.first() else { return };
-        let path = self.chooser.folder().join(path);
+        let named = |typed: &Typed| found.iter().position(|item| item.path == typed.path);
+        let meant = match &typed {
+            // Enter opens it even where it is no line of the list.
+            Some(typed) if typed.path.exists() => named(typed),
+            _ => Some(0),
+        };
+        let chosen = match self.picked.or(meant) {
+            Some(at) => Some(step(at, turn, found.len())),
+            None => turn.contains(&true).then_some(0),
+        };
+        let chosen = chosen.filter(|_| !found.is_empty());
+        if turn.contains(&true) {
+            self.picked = chosen;
+        }
+        let folder = if folder.as_os_str().is_empty() {
+            self.chooser.folder().to_owned()
+        } else {
+            folder
+        };
+        Listed { folder, found, chosen }
+    }
+
+    /// Opens the file of a typed path, or lists its folder.
+    fn go(&mut self, commands: &mut Vec<Command>) {
+        let Some(Typed { path, .. }) = self.typed() else { return };
         if path.is_dir() {
             self.enter(Some(&path));
         } else if path.exists() {
             open(&path, commands);
         } else {
-            self.problem = Some("no such file; choose one below, or mend the path".to_owned());
+            self.problem = Some("no such file; mend the path, or type a part of a name".to_owned());
         }
     }
 }
@@ -174,7 +216,17 @@ fn open(path: &Path, commands: &mut Vec<Command>) {
 
 /// Whether a text is meant to be a path, and not a part of a name.
 fn is_path(text: &str) -> bool {
-    text.starts_with('~') || text.contains(std::path::is_separator)
+    text.starts_with(HOME) || text.contains(std::path::is_separator)
+}
+
+/// What the dialog lists.
+#[derive(Debug)]
+struct Listed {
+    /// The folder that it is in, as far as there is one.
+    folder: PathBuf,
+    found: Vec<Item>,
+    /// The line that Enter opens.
+    chosen: Option<usize>,
 }
 
 /// The buttons below the list of files.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use egui::accesskit::{Node, Toggled};
 use glam::dvec2;
 
 use super::hands::{click, click_on, key, nodes, place_of, says, session};
@@ -342,4 +343,62 @@ fn scene_that_arrows_choose_is_to_be_seen() {
         // Both rings are about as long as four widths of a picture, and the one that was there goes.
         assert!(changed > 1500, "{theme:?}: {changed} pixels");
     }
+}
+
+#[test]
+fn line_that_is_chosen_is_what_enter_opens() {
+    let [there, typed] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let scene = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>";
+    for (folder, names) in [(&there, &["here.svg"][..]), (&typed, &["one.svg", "two.svg"])] {
+        for name in names {
+            std::fs::write(folder.path().join(name), scene).expect("a file");
+        }
+    }
+    let mut session = session(vec![there.path().join("here.svg")], [800, 600]);
+    let folder = format!("{}/", typed.path().display());
+    let begin = |session: &mut Session, text: &str| {
+        open_dialog(session, Dialog::Open);
+        key(session, "Ctrl+A");
+        session.type_text(text);
+        session.settle();
+    };
+    let chosen = |session: &mut Session| {
+        let nodes = nodes(session);
+        let is_chosen = |node: &&Node| node.toggled() == Some(Toggled::True);
+        let chosen = nodes
+            .iter()
+            .find(is_chosen)
+            .and_then(|node| node.label().map(str::to_owned));
+        chosen.filter(|name| name.ends_with(".svg"))
+    };
+    let opened = |session: &mut Session| {
+        key(session, "Enter");
+        session.settle();
+        let entry = session.viewer.scene_list().current().expect("a scene");
+        (session.viewer.chrome().dialog(), entry.label.clone())
+    };
+    begin(&mut session, &folder);
+    let lists = ["here.svg", "one.svg", "two.svg"].map(|name| has(&mut session, name));
+    assert_eq!(lists, [false, true, true], "the folder that was typed");
+    assert_eq!(chosen(&mut session), None, "Enter goes there");
+    for _ in 0..2 {
+        key(&mut session, "Down");
+        session.settle();
+    }
+    assert_eq!(
+        chosen(&mut session).as_deref(),
+        Some("two.svg"),
+        "arrows lead through it"
+    );
+    assert_eq!(opened(&mut session), (None, "two.svg".to_owned()), "the chosen line");
+    begin(&mut session, &format!("{folder}on"));
+    assert_eq!(chosen(&mut session).as_deref(), Some("one.svg"), "part of its name");
+    assert!(!has(&mut session, "two.svg"), "the others are gone");
+    assert_eq!(opened(&mut session), (None, "one.svg".to_owned()), "the first");
+    begin(&mut session, &folder);
+    assert_eq!(opened(&mut session).0, Some(Dialog::Open), "no line is chosen");
+    assert!(has(&mut session, "one.svg"), "so the folder is gone into");
+    key(&mut session, "Escape");
+    begin(&mut session, &format!("{folder}no such folder/x"));
+    assert!(says(&mut session, "nothing here"), "and nothing is listed of another");
 }

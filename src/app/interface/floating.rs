@@ -2,8 +2,8 @@
 //! inset, progress.
 
 use egui::{
-    Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, TextStyle, Ui,
-    Vec2,
+    Align2, Area, Button, Color32, FontId, Frame, Id, Label, LayerId, Order, Pos2, Rect, RichText, ScrollArea,
+    TextStyle, Ui, Vec2,
 };
 use egui::{pos2, vec2};
 
@@ -12,7 +12,7 @@ use super::document::{AS_BEFORE, failed_line};
 use super::focus::FocusPanel;
 use super::look::{self, CONTROL};
 use super::pin;
-use super::places::{card_area, insets, points};
+use super::places::{beside, card_area, insets, points};
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words, reads_textures};
 use crate::viewer::{Arrangement, Command, InspectorCommand, Other, Toggle, ViewCommand, Viewer, WindowCommand};
@@ -155,20 +155,24 @@ fn nothing_to_see(viewer: &Viewer) -> Option<&'static str> {
     (is_moved && is_whole && is_empty()).then_some("every pixel in sight is white")
 }
 
-/// Where nothing of the canvas is in sight, or nothing but white: how to come back to it; left out where there is no room.
-/// Returns where it stands.
-pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
+/// Where nothing of the canvas is in sight, or nothing but white: how to come back to it; left out where there is no room. It lies
+/// beside `cards`, or over them where it cannot. Returns where it stands.
+pub(super) fn way_back(
+    ui: &Ui,
+    viewer: &Viewer,
+    (free, cards): (Rect, &[Rect]),
+    commands: &mut Vec<Command>,
+) -> Option<Rect> {
     let room = free.shrink(TEXT_MARGIN);
     let has_room = room.width() >= LEAST_WAY_BACK && room.height() >= WAY_BACK_HEIGHT;
     let why = nothing_to_see(viewer).filter(|_| has_room)?;
-    let insets = insets(viewer, ui.pixels_per_point());
-    let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
-    let middle = Rect::from_center_size(free.center(), size);
-    let above = middle.translate(vec2(0.0, free.top() + TEXT_MARGIN - middle.top()));
-    let below = middle.translate(vec2(0.0, free.bottom() - TEXT_MARGIN - middle.bottom()));
-    let is_free = |place: &&Rect| insets.iter().all(|inset| !inset.intersects(**place));
-    let place = [middle, above, below];
-    let place = place.iter().find(is_free).unwrap_or(&middle);
+    let taken = [&insets(viewer, ui.pixels_per_point()), cards].concat();
+    let place = place_of_way_back(free, &taken);
+    if place.is_none() {
+        ui.ctx()
+            .move_to_top(LayerId::new(Order::Middle, Id::unique("way back")));
+    }
+    let place = place.unwrap_or(free);
     let area = card_area("way back", place.center(), free).show(ui.ctx(), |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
             ui.vertical_centered(|ui| {
@@ -181,6 +185,25 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
         });
     });
     Some(area.response.rect)
+}
+
+/// Where the way back lies beside what is `taken`: in the middle if it can, else above, below, or as near to the middle as there is
+/// room. `None` where there is none.
+fn place_of_way_back(free: Rect, taken: &[Rect]) -> Option<Rect> {
+    let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
+    let middle = Rect::from_center_size(free.center(), size);
+    let above = middle.translate(vec2(0.0, free.top() + TEXT_MARGIN - middle.top()));
+    let below = middle.translate(vec2(0.0, free.bottom() - TEXT_MARGIN - middle.bottom()));
+    let is_free = |place: &Rect| taken.iter().all(|other| !other.intersects(*place));
+    [middle, above, below].into_iter().find(is_free).or_else(|| {
+        let parts = beside(free, taken.iter().copied()).into_iter();
+        let centers = parts
+            .map(|part| part.shrink2(size / 2.0))
+            .filter(|part| !part.is_negative());
+        let places = centers.map(|part| Rect::from_center_size(part.clamp(free.center()), size));
+        let distance = |place: &Rect| place.center().distance_sq(free.center());
+        places.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    })
 }
 
 /// What the scene says about itself, until it is closed. Returns where it stands.

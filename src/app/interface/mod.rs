@@ -382,7 +382,6 @@ impl Interface {
         if !hidden {
             floating::unread(ui, viewer, free);
             waiting::show(ui, viewer, free, &mut asked.commands);
-            cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);
             let profile = self.profile.show(ui, viewer, free, &mut asked.commands);
             self.cards.extend(profile.card);
@@ -394,6 +393,8 @@ impl Interface {
             let spectrum = self.spectrum.show(ui, viewer, free, &mut asked.commands);
             self.cards.extend(spectrum.taken);
             cards.extend(spectrum.taken);
+            let beside: Vec<Rect> = profile.card.into_iter().chain(spectrum.taken).collect();
+            cards.extend(floating::way_back(ui, viewer, (free, &beside), &mut asked.commands));
             self.wave
                 .show(ui, viewer, free, spectrum.reading.map(|reading| reading.wave));
         }

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Pos2, Rect, Stroke, Ui, Vec2};
 
-use super::places::{around, insets, points};
+use super::places::{beside_insets, points};
 use crate::figure::PinRing;
 use crate::viewer::Viewer;
 
@@ -19,9 +19,7 @@ fn width(viewer: &Viewer) -> f32 {
 /// Draws the ring where neither panels nor insets lie. The pixel and its neighbours stay as they are.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect) {
     let scale = ui.pixels_per_point();
-    let parts = insets(viewer, scale).into_iter().fold(vec![free], |parts, hole| {
-        parts.into_iter().flat_map(|part| around(part, Some(hole))).collect()
-    });
+    let parts = beside_insets(viewer, free, scale);
     for (center, radius) in circles(viewer, scale) {
         for part in &parts {
             let painter = ui.painter().with_clip_rect(*part);

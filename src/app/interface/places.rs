@@ -36,11 +36,16 @@ pub(super) fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
     parts.into_iter().filter(Rect::is_positive).collect()
 }
 
-/// What of a pane no inset covers.
-pub(super) fn beside_insets(viewer: &Viewer, pane: Rect, scale: f32) -> Vec<Rect> {
-    insets(viewer, scale).into_iter().fold(vec![pane], |parts, hole| {
+/// What is left of a rectangle around holes.
+pub(super) fn beside(whole: Rect, holes: impl IntoIterator<Item = Rect>) -> Vec<Rect> {
+    holes.into_iter().fold(vec![whole], |parts, hole| {
         parts.into_iter().flat_map(|part| around(part, Some(hole))).collect()
     })
+}
+
+/// What of a pane no inset covers.
+pub(super) fn beside_insets(viewer: &Viewer, pane: Rect, scale: f32) -> Vec<Rect> {
+    beside(pane, insets(viewer, scale))
 }
 
 /// Where a card over the picture goes: about `at`, as far as that leaves it in what is `free`.

@@ -6,14 +6,14 @@
 use egui::{pos2, vec2};
 use glam::dvec2;
 
-use super::hands::{comparing, session};
+use super::hands::{comparing, right_click, session};
 use super::lessons::at_step;
 use super::*;
 use crate::viewer::picture::SettingChange;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{
     AbCommand, Arrangement, Dialog, ExportCommand, InspectorCommand, InterfaceScale, LessonCommand, LessonSource,
-    MessageKind, Toggle, ViewCommand, WindowCommand,
+    MessageKind, ProfileCommand, SpectrumCommand, Toggle, ViewCommand, WindowCommand,
 };
 
 /// A message that takes more than one line in a small window, and that nothing takes back.
@@ -248,6 +248,30 @@ fn messages_lie_beside_dialogs_where_there_is_room() {
         assert!(!told.is_empty(), "a message");
         for message in told {
             assert!(!message.intersects(dialog), "{message:?} over {dialog:?}");
+        }
+    }
+}
+
+#[test]
+fn way_back_lies_beside_cards_that_measure() {
+    let open = [
+        ("edge profile", Command::Profile(ProfileCommand::Show(Toggle::On))),
+        ("spectrum", Command::Spectrum(SpectrumCommand::Show(Toggle::On))),
+    ];
+    for window in [[1280, 800], [1000, 700]] {
+        for cards in [&open[..1], &open[1..], &open] {
+            let mut session = session(Vec::new(), window);
+            session.command(Command::View(ViewCommand::PanBy { by: dvec2(9e4, 0.0) }));
+            right_click(&mut session, [f64::from(window[0]) / 2.0, f64::from(window[1]) / 2.0]);
+            for (_, command) in cards {
+                session.command(command.clone());
+            }
+            session.settle();
+            let back = card(&session, "way back");
+            for (name, _) in cards {
+                let other = card(&session, name);
+                assert!(!back.intersects(other), "{back:?} and {name} {other:?} in {window:?}");
+            }
         }
     }
 }

@@ -287,6 +287,7 @@ impl Session {
         let fold = |viewer: &Viewer| (viewer.lesson().is_some(), viewer.chrome().interface_factor());
         let before = fold(&self.viewer);
         let asks = asked_for(&command);
+        let lacked = self.viewer.inspector().lacks_room();
         self.apply(command);
         if before != fold(&self.viewer) {
             self.fold_panel();
@@ -294,6 +295,9 @@ impl Session {
         self.share_room(wanted);
         self.take_back_missing_room();
         self.tell_missing_room(asks, wanted);
+        if !lacked {
+            self.tell_no_inspector();
+        }
     }
 
     fn apply(&mut self, command: Command) {

@@ -25,7 +25,8 @@ pub(super) struct PanelRoom {
 const LEAST_WINDOW: [f32; 2] = [520.0, 390.0];
 /// What is said where the text of a lesson has no room.
 const NO_LESSON: &str = "no room here for the text of the lesson: make the window wider";
-
+/// What is said where the pixel inspector is hidden between panels.
+const NO_INSPECTOR: &str = "no room here for the pixel inspector: close the panel, or make the window wider";
 /// What is said where the panel of a comparison has no room.
 const NO_NUMBERS: &str = "no room here for numbers and colours of the difference: make the window wider";
 
@@ -181,6 +182,7 @@ impl Session {
                 viewer.lesson().is_none() || interface.has_room_for_lesson(viewer, width),
             ),
             (NO_NUMBERS, !compares || interface.has_room_to_compare(viewer, width)),
+            (NO_INSPECTOR, !viewer.inspector().lacks_room()),
             (NO_ROOM, !explains || interface.has_room_to_explain(viewer, width)),
         ];
         for (words, _) in is_settled.into_iter().filter(|(_, is_settled)| *is_settled) {
@@ -188,6 +190,13 @@ impl Session {
             if self.viewer.chrome().messages().iter().any(is_told) {
                 self.viewer.retract(words);
             }
+        }
+    }
+
+    /// Tells that the pixel inspector hides now: it had room before.
+    pub(super) fn tell_no_inspector(&mut self) {
+        if self.viewer.inspector().lacks_room() {
+            self.viewer.tell(MessageKind::Done, NO_INSPECTOR.to_owned());
         }
     }
 

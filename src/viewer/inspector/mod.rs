@@ -26,6 +26,10 @@ const MAX_STEPS: u32 = 20;
 pub(in crate::viewer) const SHARE: f64 = 0.8;
 /// What it may take in the smallest window, in pixels.
 pub(in crate::viewer) const LEAST: f64 = 48.0;
+/// What panels must leave of the window's shorter side, as one part of so many, and how many window pixels are enough in any
+/// case, for an inset to be worth its place.
+pub(in crate::viewer) const LEAST_PART: u32 = 3;
+pub(in crate::viewer) const ENOUGH: u32 = 150;
 /// Lines of a magnified pixel's label: red, green, blue.
 const LABEL_LINES: f32 = 3.0;
 

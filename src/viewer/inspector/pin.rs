@@ -7,7 +7,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::inspector::state::Inspection;
-use crate::viewer::inspector::{Beside, Pin, PlacedInset, RING_ROOM};
+use crate::viewer::inspector::{Beside, ENOUGH, LEAST_PART, Pin, PlacedInset, RING_ROOM};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::Toggle;
 use crate::viewer::view::layout::{WindowLayout, magnified};
@@ -119,7 +119,7 @@ impl Inspection {
         self.magnifier.pin = Some(pin);
     }
 
-    /// Where the insets go now: nowhere while the pinned place is out of sight.
+    /// Where the insets go now: nowhere while the pinned place is out of sight, or panels leave no room.
     pub(in crate::viewer) fn place_insets(&mut self, around: &InsetSurroundings<'_>) {
         let layout = around.layout;
         let to_be_seen = self.magnifier.open && !around.hidden;
@@ -128,8 +128,11 @@ impl Inspection {
             None => self.inspected_pixel(layout),
         };
         let center = center.filter(|_| to_be_seen);
+        self.lacks_room = center.is_some() && is_crowded(layout);
         (self.inset, self.other_inset) = (None, None);
-        let Some(center) = center else { return };
+        let Some(center) = center.filter(|_| !self.lacks_room) else {
+            return;
+        };
         // The panels that draw the ring tell what area is free; pictures without them have none.
         let is_ringed = layout.free_area().is_some() && self.pinned_pixel(layout).is_some();
         self.magnifier.ring_room = if is_ringed { RING_ROOM } else { 0 };
@@ -164,6 +167,15 @@ impl Inspection {
         };
         self.magnifier.place_in_halves(center, &beside, [other.x, other.y])
     }
+}
+
+/// Whether panels leave so little of the window that an inset there would be a picture without words.
+fn is_crowded(layout: &WindowLayout) -> bool {
+    let shorter = |[width, height]: [u32; 2]| width.min(height);
+    let least = (shorter(layout.window()) / LEAST_PART).min(ENOUGH);
+    layout
+        .free_area()
+        .is_some_and(|free| shorter([free.width, free.height]) < least)
 }
 
 impl InsetSurroundings<'_> {

@@ -19,6 +19,8 @@ pub struct Inspection {
     pub(in crate::viewer) inset: Option<PlacedInset>,
     /// B's, where both share the window.
     pub(in crate::viewer) other_inset: Option<PlacedInset>,
+    /// Whether there would be one, but for panels that leave it no room.
+    pub(in crate::viewer) lacks_room: bool,
     pub(in crate::viewer) samples: Probing,
     pub(in crate::viewer) explanation: Explaining,
     pub(in crate::viewer) contributions: Contributing,
@@ -32,6 +34,7 @@ impl Inspection {
             magnifier: Inspector::default(),
             inset: None,
             other_inset: None,
+            lacks_room: false,
             samples,
             explanation,
             contributions,
@@ -52,6 +55,11 @@ impl Inspection {
     /// The inset of the same pixel of B, where A and B share the window.
     pub fn other_inset(&self) -> Option<PlacedInset> {
         self.other_inset
+    }
+
+    /// Whether it is open, and hidden because panels leave it no room.
+    pub fn lacks_room(&self) -> bool {
+        self.lacks_room
     }
 
     /// Grows with every pixel that is pinned.

@@ -494,3 +494,30 @@ fn status_line_says_that_the_desktop_scales_the_window() {
         assert!(told(&mut session), "scaled in {window:?}");
     }
 }
+
+#[test]
+fn inspector_hides_where_a_panel_leaves_it_no_room() {
+    const SAYS: &str = "no room here for the pixel inspector";
+    let mut session = session(Vec::new(), [333, 777]);
+    session.command(Command::Inspector(InspectorCommand::Pin([30, 300])));
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.settle();
+    let shows = |session: &Session| session.viewer.inspector().inset().is_some();
+    let told = |session: &Session| {
+        let messages = session.viewer.chrome().messages();
+        messages.iter().filter(|message| message.text.starts_with(SAYS)).count()
+    };
+    assert_eq!((shows(&session), told(&session)), (true, 0), "beside nothing");
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    assert_eq!((shows(&session), told(&session)), (false, 1), "beside the panel");
+    session.resize([640, 777]);
+    session.settle();
+    assert_eq!((shows(&session), told(&session)), (true, 0), "in a wider window");
+    session.resize([333, 777]);
+    session.settle();
+    assert!(!shows(&session), "narrow again");
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+    session.settle();
+    assert_eq!((shows(&session), told(&session)), (true, 0), "without the panel");
+}

@@ -2,32 +2,26 @@
 //! inset, progress.
 
 use egui::{
-    Align2, Area, Button, Color32, FontId, Frame, Id, Label, LayerId, Order, Pos2, Rect, RichText, ScrollArea,
-    TextStyle, Ui, Vec2,
+    Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, TextStyle, Ui,
+    Vec2,
 };
 use egui::{pos2, vec2};
 
-use super::controls::{command_button, tip};
+use super::controls::tip;
 use super::document::{AS_BEFORE, failed_line};
 use super::focus::FocusPanel;
 use super::look::{self, CONTROL};
 use super::pin;
-use super::places::{beside, card_area, insets, points};
+use super::places::{insets, points};
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words, reads_textures};
-use crate::viewer::{Arrangement, Command, InspectorCommand, Other, Toggle, ViewCommand, Viewer, WindowCommand};
+use crate::viewer::{Arrangement, Command, InspectorCommand, Other, Toggle, Viewer, WindowCommand};
 
 /// How far a pointer moves that rests no more, in points.
 const REST: f32 = 5.0;
 
 /// Height of the progress bar, in points.
 const BAR_HEIGHT: f32 = 3.0;
-/// Width of the way back, in points.
-const WAY_BACK_WIDTH: f32 = 230.0;
-/// The least width in which it can be read, in points.
-const LEAST_WAY_BACK: f32 = 170.0;
-/// Its height, in points.
-const WAY_BACK_HEIGHT: f32 = 84.0;
 /// Widths of a scene's own words at most, in points; a narrower one is taken where a wider one has no room.
 const WORDS_WIDTHS: [f32; 3] = [320.0, 230.0, 150.0];
 /// What the frame, the name and the button of these words add to their size, in points.
@@ -137,73 +131,6 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
     let bar = Rect::from_min_size(free.min, vec2(free.width() * done, BAR_HEIGHT));
     ui.painter().rect_filled(track, 0.0, Color32::from_black_alpha(60));
     ui.painter().rect_filled(bar, 0.0, ui.visuals().selection.bg_fill);
-}
-
-/// Why there is nothing to see, where that is the view's doing.
-fn nothing_to_see(viewer: &Viewer) -> Option<&'static str> {
-    if !viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
-        return Some("the canvas lies outside the free part of the window");
-    }
-    let is_moved = viewer.scene_list().view_is_moved();
-    let is_whole = viewer.frames().preview().is_none() && viewer.ab().arrangement() == Arrangement::Alone;
-    let is_empty = || {
-        viewer
-            .frames()
-            .frame()
-            .is_some_and(|frame| frame.pixels.pixels().iter().all(|pixel| *pixel == u32::MAX))
-    };
-    (is_moved && is_whole && is_empty()).then_some("every pixel in sight is white")
-}
-
-/// Where nothing of the canvas is in sight, or nothing but white: how to come back to it; left out where there is no room. It lies
-/// beside `cards`, or over them where it cannot. Returns where it stands.
-pub(super) fn way_back(
-    ui: &Ui,
-    viewer: &Viewer,
-    (free, cards): (Rect, &[Rect]),
-    commands: &mut Vec<Command>,
-) -> Option<Rect> {
-    let room = free.shrink(TEXT_MARGIN);
-    let has_room = room.width() >= LEAST_WAY_BACK && room.height() >= WAY_BACK_HEIGHT;
-    let why = nothing_to_see(viewer).filter(|_| has_room)?;
-    let taken = [&insets(viewer, ui.pixels_per_point()), cards].concat();
-    let place = place_of_way_back(free, &taken);
-    if place.is_none() {
-        ui.ctx()
-            .move_to_top(LayerId::new(Order::Middle, Id::unique("way back")));
-    }
-    let place = place.unwrap_or(free);
-    let area = card_area("way back", place.center(), free).show(ui.ctx(), |ui| {
-        Frame::popup(ui.style()).show(ui, |ui| {
-            ui.vertical_centered(|ui| {
-                ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
-                ui.label(format!("Nothing to see here: {why}."));
-                if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
-                    commands.push(Command::View(ViewCommand::Reset));
-                }
-            });
-        });
-    });
-    Some(area.response.rect)
-}
-
-/// Where the way back lies beside what is `taken`: in the middle if it can, else above, below, or as near to the middle as there is
-/// room. `None` where there is none.
-fn place_of_way_back(free: Rect, taken: &[Rect]) -> Option<Rect> {
-    let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
-    let middle = Rect::from_center_size(free.center(), size);
-    let above = middle.translate(vec2(0.0, free.top() + TEXT_MARGIN - middle.top()));
-    let below = middle.translate(vec2(0.0, free.bottom() - TEXT_MARGIN - middle.bottom()));
-    let is_free = |place: &Rect| taken.iter().all(|other| !other.intersects(*place));
-    [middle, above, below].into_iter().find(is_free).or_else(|| {
-        let parts = beside(free, taken.iter().copied()).into_iter();
-        let centers = parts
-            .map(|part| part.shrink2(size / 2.0))
-            .filter(|part| !part.is_negative());
-        let places = centers.map(|part| Rect::from_center_size(part.clamp(free.center()), size));
-        let distance = |place: &Rect| place.center().distance_sq(free.center());
-        places.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    })
 }
 
 /// What the scene says about itself, until it is closed. Returns where it stands.

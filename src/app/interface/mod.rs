@@ -56,6 +56,7 @@ mod status;
 mod texture_view;
 mod view_numbers;
 mod waiting;
+mod way_back;
 mod widths;
 
 use egui::{Area, Context, Event, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
@@ -394,7 +395,7 @@ impl Interface {
             self.cards.extend(spectrum.taken);
             cards.extend(spectrum.taken);
             let beside: Vec<Rect> = profile.card.into_iter().chain(spectrum.taken).collect();
-            cards.extend(floating::way_back(ui, viewer, (free, &beside), &mut asked.commands));
+            cards.extend(way_back::show(ui, viewer, (free, &beside), &mut asked.commands));
             self.wave
                 .show(ui, viewer, free, spectrum.reading.map(|reading| reading.wave));
         }

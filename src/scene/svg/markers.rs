@@ -253,7 +253,7 @@ fn joints(data: &str, count: usize) -> Option<Vec<bool>> {
         let is_begun = matches!(simple.get(joints.len()), Some(Simple::MoveTo { .. })) && !is_moving;
         joints.extend(is_begun.then_some(false));
         let parts = if is_arc {
-            parts(simple.get(joints.len() - 1)?, segment)?
+            parts(simple.get(joints.len().checked_sub(1)?)?, segment)?
         } else {
             1
         };

@@ -11,6 +11,7 @@ mod smoothed;
 mod ties;
 mod tiles;
 mod timing;
+mod triangle_edges;
 mod visualisation;
 
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -2,29 +2,19 @@
 //! with its neighbour has no border there.
 
 use std::collections::{HashMap, HashSet};
-use std::sync::OnceLock;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::number;
 use super::replay::{Explainer, bounds, placed, touch};
+use super::triangle_edges::Ends;
 use crate::geometry::{BEYOND, FillRule, cut_to_window, width_in_window, width_of_part};
 use crate::scene::{Paint, PrimitiveKind};
 
 /// Triangles that continue one at most, and triangles near a pixel beyond which none is looked for: it would take as long as drawing.
 const MOST_CONTINUED: usize = 200;
 const MOST_NEAR: usize = 50_000;
-
-/// The ends of an edge, as they can be looked up: in an order that does not depend on whose it is.
-type Ends = [[u64; 2]; 2];
-
-/// The triangles near a pixel, by their edges.
-#[derive(Debug, Default)]
-pub(super) struct TriangleEdges {
-    /// Found when somebody asks.
-    with: OnceLock<HashMap<Ends, Vec<u32>>>,
-}
 
 impl Explainer<'_> {
     /// How wide a primitive is in the thinnest direction, in pixels, with the triangles that continue it, as far as they lie in the

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::extent::TriangleEdges;
+use super::triangle_edges::TriangleEdges;
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window};

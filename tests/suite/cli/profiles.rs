@@ -183,6 +183,7 @@ fn profile_along_an_edge_says_whose_values_go_back_and_forth() {
     let words = [
         "profile",
         scene.to_str().unwrap(),
+        "--dialect=svg",
         "--line=25,2,30,58",
         "--size=60x60",
         "--view=canvas",

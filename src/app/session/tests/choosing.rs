@@ -369,7 +369,7 @@ fn line_that_is_chosen_is_what_enter_opens() {
             .iter()
             .find(is_chosen)
             .and_then(|node| node.label().map(str::to_owned));
-        chosen.filter(|name| std::path::Path::new(name).extension().is_some_and(|kind| kind == "svg"))
+        chosen.filter(|name| Path::new(name).extension().is_some_and(|kind| kind == "svg"))
     };
     let opened = |session: &mut Session| {
         key(session, "Enter");

@@ -51,8 +51,9 @@ pub(super) fn shortest(color: &str) -> Option<String> {
     Some(digits.fold("#".to_owned(), |hex, digits| hex + &digits))
 }
 
+/// In any case: among words of SVG, the first one stands as `sRGB`.
 fn space_named(name: &str) -> Option<ColorSpace> {
-    match name {
+    match name.to_ascii_lowercase().as_str() {
         "srgb" => Some(ColorSpace::Srgb),
         "srgb-linear" => Some(ColorSpace::SrgbLinear),
         "display-p3" => Some(ColorSpace::DisplayP3),

@@ -3,67 +3,13 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::inherited::is_inherited;
 use super::plain::Plain;
 use super::tokens::{Brackets, Kind, Token, Tokens, inside, unescaped};
 use super::{letter_case, selectors};
 
 /// Words that every property knows (CSS Cascading 5, section 7.3).
 const EVERYWHERE: [&str; 5] = ["inherit", "initial", "unset", "revert", "revert-layer"];
-
-/// Properties that an element has of the one around it (SVG 2, appendix "Property index").
-const INHERITED: [&str; 46] = [
-    "clip-rule",
-    "color",
-    "color-interpolation",
-    "color-interpolation-filters",
-    "color-rendering",
-    "cursor",
-    "direction",
-    "dominant-baseline",
-    "fill",
-    "fill-opacity",
-    "fill-rule",
-    "font",
-    "font-family",
-    "font-feature-settings",
-    "font-kerning",
-    "font-size",
-    "font-size-adjust",
-    "font-stretch",
-    "font-style",
-    "font-variant",
-    "font-weight",
-    "glyph-orientation-vertical",
-    "image-rendering",
-    "letter-spacing",
-    "line-height",
-    "marker",
-    "marker-end",
-    "marker-mid",
-    "marker-start",
-    "paint-order",
-    "pointer-events",
-    "shape-rendering",
-    "stroke",
-    "stroke-dasharray",
-    "stroke-dashoffset",
-    "stroke-linecap",
-    "stroke-linejoin",
-    "stroke-miterlimit",
-    "stroke-opacity",
-    "stroke-width",
-    "text-anchor",
-    "text-rendering",
-    "visibility",
-    "white-space",
-    "word-spacing",
-    "writing-mode",
-];
-
-/// Whether an element has a property of the one around it.
-pub(in crate::scene) fn is_inherited(property: &str) -> bool {
-    INHERITED.contains(&property)
-}
 
 /// A word that every property knows, as `inherit` or `initial`: nobody else gave the element a style, so these are all.
 pub(in crate::scene) fn plain_word(property: &str, value: &str) -> Option<&'static str> {

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::declarations::is_inherited;
+use super::inherited::is_inherited;
 use super::tokens::{Kind, Token, Tokens};
 
 /// Words that are not all in small letters.

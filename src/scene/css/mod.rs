@@ -7,13 +7,15 @@
 
 mod classes;
 mod declarations;
+mod inherited;
 mod letter_case;
 mod plain;
 mod rules;
 mod selectors;
 mod tokens;
 
-pub(super) use declarations::{is_inherited, plain_word, style};
+pub(super) use declarations::{plain_word, style};
+pub(super) use inherited::is_inherited;
 pub(super) use letter_case::{is_in_other_case, other_case};
 pub(super) use plain::{Place, Plain};
 pub(super) use rules::sheet;

@@ -3,7 +3,8 @@
 use glam::{DAffine2, DVec2};
 use usvg::{ClipPath, Group, Mask, filter};
 
-use super::painter::{Painter, Place, affine};
+use super::affine::affine;
+use super::painter::{Painter, Place};
 use super::values::WHITENS;
 use crate::color::{BlendMode, Rgba};
 use crate::geometry::{CurvedArea, FillRule, Path};

@@ -16,8 +16,8 @@ use svgtypes::{SimplePathSegment as Simple, SimplifyingPathParser};
 use usvg::Group;
 use usvg::tiny_skia_path::{Path as TheirPath, PathSegment, Point};
 
+use super::affine::affine;
 use super::elements::Elements;
-use super::painter::affine;
 use super::rules::Rules;
 use super::values;
 use crate::scene::edits::Edits;

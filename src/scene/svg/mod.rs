@@ -9,6 +9,7 @@
 //!
 //! What is not drawn is reported.
 
+mod affine;
 mod cascade;
 mod check;
 mod circles;

@@ -5,8 +5,9 @@ use roxmltree::Node;
 use usvg::tiny_skia_path::Path as TheirPath;
 use usvg::{ClipPath, Group, Image, ImageKind, ImageRendering, Path};
 
+use super::affine::affine;
 use super::own_triangles::{self, Drawn};
-use super::painter::{Inside, Painter, Place, affine};
+use super::painter::{Inside, Painter, Place};
 use super::pictures::{self, Picture};
 use super::{clip, reach, shapes};
 use crate::color::BlendMode;

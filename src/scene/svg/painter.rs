@@ -114,12 +114,6 @@ impl std::fmt::Debug for Painter<'_, '_> {
     }
 }
 
-/// usvg's transform as ours.
-pub(super) fn affine(transform: usvg::Transform) -> DAffine2 {
-    let usvg::Transform { sx, kx, ky, sy, tx, ty } = transform;
-    DAffine2::from_cols_array(&[sx, ky, kx, sy, tx, ty].map(f64::from))
-}
-
 /// usvg's colour with an opacity.
 pub(super) fn color(color: usvg::Color, opacity: f32) -> Rgba {
     Rgba::from_bytes([color.red, color.green, color.blue, u8::MAX]).faded(opacity)

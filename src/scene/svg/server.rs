@@ -8,8 +8,9 @@ use glam::{DAffine2, DVec2};
 use roxmltree::Node;
 use usvg::{BaseGradient, LinearGradient, Paint, RadialGradient};
 
+use super::affine::affine;
 use super::elements::Elements;
-use super::painter::{Inside, Key, Painter, Place, Servers, affine, color};
+use super::painter::{Inside, Key, Painter, Place, Servers, color};
 use super::references;
 use crate::color::{Ramp, Spread, Stop};
 use crate::geometry::GradientShape;

@@ -11,7 +11,6 @@ mod smoothed;
 mod ties;
 mod tiles;
 mod timing;
-mod triangle_edges;
 mod visualisation;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,6 +28,7 @@ use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter, SamplingSettings, Wrap};
 
+pub use extent::Extent;
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
 use parts::chunks;

@@ -18,7 +18,7 @@ use crate::geometry::{FillRule, Polygon};
 use crate::raster::{
     Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, ShadingPlace,
 };
-use crate::render::{self, Explainer, MissedPrimitive, OpenSample, Subject};
+use crate::render::{self, Explainer, Extent, MissedPrimitive, OpenSample, Subject};
 use crate::rules::Rules;
 use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes, Report};
 
@@ -101,12 +101,7 @@ impl Explanation {
         missed.retain(|missed| pinholes.iter().all(|pinhole| pinhole.primitive != missed.source));
         let positions: Vec<DVec2> = samples.iter().map(|sample| sample.position.into()).collect();
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
-        if let Some(topmost) = Self::topmost_of(&mut paints)
-            && topmost.area.is_some_and(|area| area < 1.0)
-        {
-            topmost.width = explainer.width(topmost.primitive, around);
-            topmost.length = explainer.length(topmost.primitive);
-        }
+        let extents = measure_parts(&mut paints, &missed, &explainer, around);
         Some(Self {
             version: VERSION,
             pixel,
@@ -122,7 +117,7 @@ impl Explanation {
             paints,
             pinholes,
             unlisted,
-            missed: question.missed(missed, sources, around, &positions),
+            missed: question.missed(missed, extents, sources, &positions),
             truth: None,
             untried: None,
             not_drawn: not_drawn(&subject.scene.report),
@@ -157,6 +152,27 @@ fn measure(paints: &mut [Paint], painted: &[PaintedCommand], explainer: &Explain
     }
 }
 
+/// Finds how large the topmost paint is, where it covers only a part of the pixel; and what is missed, each.
+fn measure_parts(
+    paints: &mut [Paint],
+    missed: &[MissedPrimitive],
+    explainer: &Explainer<'_>,
+    around: f64,
+) -> Vec<Option<Extent>> {
+    let topmost = Explanation::topmost_of(paints).filter(|topmost| topmost.area.is_some_and(|area| area < 1.0));
+    let sources = missed.iter().map(|missed| missed.source);
+    let sources: Vec<u32> = sources
+        .chain(topmost.as_ref().map(|topmost| topmost.primitive))
+        .collect();
+    let mut extents = explainer.extents(&sources, around);
+    if let Some(topmost) = topmost {
+        let extent = extents.pop().flatten();
+        topmost.width = extent.map(|extent| extent.width);
+        topmost.length = extent.map(|extent| extent.length);
+    }
+    extents
+}
+
 /// The geometry of a paint.
 struct Shaped {
     shape: Shape,
@@ -166,15 +182,16 @@ struct Shaped {
 }
 
 impl Question<'_> {
-    /// What covers parts of the pixel and none of its samples, and how wide it is `around` the pixel.
+    /// What covers parts of the pixel and none of its samples, and how large each of it is.
     fn missed(
         &self,
         found: Vec<MissedPrimitive>,
+        extents: Vec<Option<Extent>>,
         sources: Sources<'_>,
-        around: f64,
         positions: &[DVec2],
     ) -> Vec<Missed> {
-        let missed = |found: MissedPrimitive| {
+        let missed = |(found, extent): (MissedPrimitive, Option<Extent>)| {
+            let Extent { width, length } = extent?;
             let MissedPrimitive {
                 source: primitive,
                 area,
@@ -190,12 +207,12 @@ impl Question<'_> {
                 in_mask,
                 area,
                 shown: None,
-                width: sources.explainer.width(primitive, around)?,
-                length: sources.explainer.length(primitive)?,
+                width,
+                length,
                 ties: self.ties(primitive, sources.explainer, positions),
             })
         };
-        found.into_iter().filter_map(missed).collect()
+        found.into_iter().zip(extents).filter_map(missed).collect()
     }
 
     /// Whether a primitive is one of several triangles of its element.

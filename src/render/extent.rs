@@ -8,53 +8,80 @@ use rayon::prelude::*;
 
 use super::number;
 use super::replay::{Explainer, bounds, placed, touch};
-use super::triangle_edges::Ends;
 use crate::geometry::{BEYOND, FillRule, cut_to_window, width_in_window, width_of_part};
 use crate::scene::{Paint, PrimitiveKind};
 
-/// Triangles that continue one at most, and triangles near a pixel beyond which none is looked for: it would take as long as drawing.
-const MOST_CONTINUED: usize = 200;
+/// Triangles whose common outline is looked for at most, and triangles near a pixel beyond which none is joined with others: it would
+/// take as long as drawing.
+const MOST_JOINED: usize = 200;
 const MOST_NEAR: usize = 50_000;
 
+/// How large a primitive is near a pixel, together with the triangles that continue it, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// In the thinnest direction, as far as it lies in the pixel or beside it, or that of the widest of the parts there that touch
+    /// the pixel.
+    pub width: f64,
+    /// The longer side of the box around it.
+    pub length: f64,
+}
+
+/// The ends of an edge, as they can be looked up: in an order that does not depend on whose it is.
+type Ends = [[u64; 2]; 2];
+
 impl Explainer<'_> {
-    /// How wide a primitive is in the thinnest direction, in pixels, with the triangles that continue it, as far as they lie in the
-    /// pixel or at most `around` pixels beside it, or the widest of their parts there that touch the pixel; `None` where
-    /// [`Explainer::area`] is.
-    pub fn width(&self, source: u32, around: f64) -> Option<f64> {
-        let screen = self.screen();
+    /// How large primitives are in the pixel and at most `around` pixels beside it; `None` where [`Explainer::area`] is, and for what
+    /// does not lie there.
+    pub fn extents(&self, sources: &[u32], around: f64) -> Vec<Option<Extent>> {
         let corner = DVec2::from(self.pixel.map(f64::from));
         let window = [corner - around, corner + 1.0 + around];
-        let around_it = [window[0] - BEYOND, window[1] + BEYOND];
-        match self.kind(source)? {
-            PrimitiveKind::Triangle { points, .. } => {
-                let place = |points: [DVec2; 3]| points.map(|point| screen.place(point));
-                let triangles = self.continued(source, around_it);
-                if triangles.len() < 2 {
-                    return width_in_window(std::iter::once(place(*points)), window);
-                }
-                let contours = triangles.into_iter().filter_map(|source| match self.kind(source)? {
-                    PrimitiveKind::Triangle { points, .. } => Some(turned_one_way(place(*points)).into_iter()),
-                    _ => None,
-                });
-                let inside = cut_to_window(contours, FillRule::NonZero, around_it);
-                width_of_part(inside.triangles()?, window, around)
+        let is_triangle = |source: &u32| matches!(self.kind(*source), Some(PrimitiveKind::Triangle { .. }));
+        let beside = if sources.iter().any(is_triangle) {
+            self.edges_near([window[0] - BEYOND, window[1] + BEYOND])
+        } else {
+            HashMap::new()
+        };
+        let mut known = HashMap::new();
+        let extent = |source: &u32| {
+            if let Some(known) = known.get(source) {
+                return *known;
             }
-            PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
-                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), around_it);
-                width_of_part(inside.triangles()?, window, around)
-            }),
-            _ => None,
-        }
+            let joined = self.joined(*source, &beside);
+            let width = self.width(&joined, window, around);
+            let extent = width.zip(self.length(&joined));
+            let extent = extent.map(|(width, length)| Extent { width, length });
+            known.extend(joined.into_iter().map(|source| (source, extent)));
+            extent
+        };
+        sources.iter().map(extent).collect()
     }
 
-    /// The longer side of the box around a primitive and the triangles that continue it near the pixel, in pixels; `None` where
-    /// [`Explainer::area`] is.
-    pub fn length(&self, source: u32) -> Option<f64> {
-        let corner = DVec2::from(self.pixel.map(f64::from));
-        let near = [corner - BEYOND, corner + 1.0 + BEYOND];
+    fn width(&self, joined: &[u32], window: [DVec2; 2], around: f64) -> Option<f64> {
         let screen = self.screen();
-        let boxes = self.continued(source, near).into_iter();
-        let boxes = boxes.filter_map(|source| bounds(&screen, self.kind(source)?));
+        let around_it = [window[0] - BEYOND, window[1] + BEYOND];
+        if let [source] = joined
+            && let PrimitiveKind::Polygon { polygon, .. } = self.kind(*source)?
+        {
+            return screen.with_edges(polygon, |polygon| {
+                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), around_it);
+                width_of_part(inside.triangles()?, window, around)
+            });
+        }
+        let triangles = joined.iter().filter_map(|source| match self.kind(*source)? {
+            PrimitiveKind::Triangle { points, .. } => Some(points.map(|point| screen.place(point))),
+            _ => None,
+        });
+        if joined.len() < 2 || joined.len() > MOST_JOINED {
+            return width_in_window(triangles, window);
+        }
+        let contours = triangles.map(|corners| turned_one_way(corners).into_iter());
+        let inside = cut_to_window(contours, FillRule::NonZero, around_it);
+        width_of_part(inside.triangles()?, window, around)
+    }
+
+    fn length(&self, joined: &[u32]) -> Option<f64> {
+        let screen = self.screen();
+        let boxes = joined.iter().filter_map(|source| bounds(&screen, self.kind(*source)?));
         let [low, high] = boxes.reduce(|one, other| [one[0].min(other[0]), one[1].max(other[1])])?;
         Some((high - low).max_element())
     }
@@ -63,24 +90,17 @@ impl Explainer<'_> {
         Some(&self.subject.scene.primitives.get(source as usize)?.kind)
     }
 
-    /// A primitive and the triangles that continue it, one after the other, as far as they touch a window.
-    fn continued(&self, source: u32, window: [DVec2; 2]) -> Vec<u32> {
+    /// A primitive and the triangles that continue it, one after the other, of those that are given by their edges.
+    fn joined(&self, source: u32, beside: &HashMap<Ends, Vec<u32>>) -> Vec<u32> {
         let mut found = vec![source];
-        if !matches!(self.kind(source), Some(PrimitiveKind::Triangle { .. })) {
-            return found;
-        }
-        let edges = self.edges.with.get_or_init(|| self.edges_near());
         let mut known = HashSet::from([source]);
         let mut at = 0;
-        while let Some(one) = found.get(at).copied().filter(|_| found.len() < MOST_CONTINUED) {
+        while let Some(one) = found.get(at).copied() {
             at += 1;
             for edge in 0..3 {
-                let beside = self.ends(one, edge).and_then(|ends| edges.get(&ends));
+                let beside = self.ends(one, edge).and_then(|ends| beside.get(&ends));
                 for other in beside.into_iter().flatten().copied() {
-                    let touches =
-                        |kind: &PrimitiveKind| bounds(&self.screen(), kind).is_some_and(|bounds| touch(bounds, window));
-                    if self.continues(one, edge, other) && self.kind(other).is_some_and(touches) && known.insert(other)
-                    {
+                    if self.continues(one, edge, other) && known.insert(other) {
                         found.push(other);
                     }
                 }
@@ -89,12 +109,8 @@ impl Explainer<'_> {
         found
     }
 
-    /// The triangles as near to the pixel as any width is measured, by their edges.
-    fn edges_near(&self) -> HashMap<Ends, Vec<u32>> {
-        /// Beside the pixel, in pixels.
-        const FAR: f64 = 4.0;
-        let corner = DVec2::from(self.pixel.map(f64::from));
-        let window = [corner - FAR, corner + 1.0 + FAR];
+    /// The triangles that touch a window, by their edges.
+    fn edges_near(&self, window: [DVec2; 2]) -> HashMap<Ends, Vec<u32>> {
         let screen = self.screen();
         let all = self.subject.scene.primitives.par_iter().enumerate();
         let near = all.filter(|(_, primitive)| {

@@ -5,7 +5,6 @@ use std::collections::HashSet;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::triangle_edges::TriangleEdges;
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon, area_in_pixel, cut_to_window};
@@ -185,7 +184,6 @@ pub struct Explainer<'a> {
     pub(super) context: ListContext,
     raster: RasterSettings,
     pub(super) pixel: [u32; 2],
-    pub(super) edges: TriangleEdges,
 }
 
 impl<'a> Explainer<'a> {
@@ -197,7 +195,6 @@ impl<'a> Explainer<'a> {
             context: ListContext::new(size, &raster),
             raster,
             pixel,
-            edges: TriangleEdges::default(),
         }
     }
 

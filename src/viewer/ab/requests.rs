@@ -36,6 +36,7 @@ impl Comparison {
         // The newest request counts.
         self.loading = None;
         context.messages.retract(KEPT);
+        context.messages.retract(NOTHING_TO_COMPARE);
         match against {
             Against::Settings => {
                 self.set_other(Some(Other::with(context.settings)));

@@ -377,6 +377,10 @@ fn next_difference_without_b_says_what_is_missing() {
     session.settle();
     assert!(session.viewer.ab().other().is_none(), "nothing begins by itself");
     assert!(says(&mut session, "no B yet"), "but the user is told");
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.settle();
+    assert!(session.viewer.ab().other().is_some(), "B was asked for");
+    assert!(!says(&mut session, "no B yet"), "which is true no more");
 }
 
 #[test]

@@ -160,12 +160,7 @@ impl Inside {
 
     /// How far a place is from the border.
     fn distance(&self, at: DVec2) -> f64 {
-        let squares = self.border.iter().map(|[from, to]| {
-            let (along, beside) = (*to - *from, at - *from);
-            let part = (beside.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            beside.distance_squared(along * part)
-        });
-        squares.fold(f64::INFINITY, f64::min).sqrt()
+        distance_from(&self.border, at)
     }
 
     /// The diameter of the widest disc that is found in it, from the middles that are farthest from the border up the hill; `None` where
@@ -191,22 +186,47 @@ impl Inside {
     /// distance, so that it does not leave the part.
     fn climbed(&self, (mut radius, mut at): (f64, DVec2)) -> f64 {
         let mut step = 0.5;
+        let mut border = self.border_near(at, radius);
         for _ in 0..STEPS {
             let around = (0..DIRECTIONS)
                 .map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(DIRECTIONS)));
             let near = around.map(|toward| at + toward * radius * step);
             let inside = near.filter(|at| at.cmpge(self.window[0]).all() && at.cmple(self.window[1]).all());
             let best = inside
-                .map(|at| (self.distance(at), at))
+                .map(|at| (distance_from(&border, at), at))
                 .max_by(|a, b| a.0.total_cmp(&b.0));
             match best {
-                Some((distance, place)) if distance > radius * 1.001 => (radius, at) = (distance, place),
+                Some((distance, place)) if distance > radius * 1.001 => {
+                    (radius, at) = (distance, place);
+                    border = self.border_near(at, radius);
+                }
                 _ if step > 0.01 => step /= 2.0,
                 _ => break,
             }
         }
         radius
     }
+
+    /// The edges of the border one of which is the nearest to any place within a step of `at`, which has this distance from the border:
+    /// a step is at most half as long, and the place then not farther from the border than by that more.
+    fn border_near(&self, at: DVec2, radius: f64) -> Vec<[DVec2; 2]> {
+        let near = (2.1 * radius).powi(2);
+        let is_near = |edge: &&[DVec2; 2]| distance_squared(edge, at) <= near;
+        self.border.iter().filter(is_near).copied().collect()
+    }
+}
+
+/// How far a place is from the nearest of some edges.
+fn distance_from(edges: &[[DVec2; 2]], at: DVec2) -> f64 {
+    let squares = edges.iter().map(|edge| distance_squared(edge, at));
+    squares.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// The square of how far a place is from an edge.
+fn distance_squared([from, to]: &[DVec2; 2], at: DVec2) -> f64 {
+    let (along, beside) = (*to - *from, at - *from);
+    let part = (beside.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    beside.distance_squared(along * part)
 }
 
 /// The corners of the convex hull of some points, in order around it: Andrew's monotone chain.

@@ -46,15 +46,11 @@ pub(super) struct LineIndex<'text> {
 
 impl<'text> LineIndex<'text> {
     pub(super) fn new(text: &'text str) -> Self {
-        let mut here = SourceLocation { line: 1, column: 1 };
-        let mut marks = vec![(0, here)];
-        let mut next_mark = MARK_SPACING;
-        for (offset, c) in text.char_indices() {
-            if offset >= next_mark {
-                marks.push((offset, here));
-                next_mark = offset + MARK_SPACING;
-            }
-            here = after(here, c);
+        let mut mark = (0, SourceLocation { line: 1, column: 1 });
+        let mut marks = vec![mark];
+        while let Some((between, _)) = split_at_character(&text[mark.0..], MARK_SPACING) {
+            mark = (mark.0 + between.len(), behind(mark.1, between));
+            marks.push(mark);
         }
         Self { text, marks }
     }
@@ -68,7 +64,7 @@ impl<'text> LineIndex<'text> {
     pub(super) fn locate(&self, offset: usize) -> SourceLocation {
         let (start, place) = self.mark(|(start, _)| *start <= offset);
         let between = self.text.get(start..offset.min(self.text.len())).unwrap_or("");
-        between.chars().fold(place, after)
+        behind(place, between)
     }
 
     /// The byte where the character at a place starts; `None` where the text has no such place.
@@ -87,6 +83,25 @@ impl<'text> LineIndex<'text> {
     fn mark(&self, before: impl Fn(&(usize, SourceLocation)) -> bool) -> (usize, SourceLocation) {
         let after = self.marks.partition_point(before);
         self.marks[after.saturating_sub(1)]
+    }
+}
+
+/// A text up to the first character that starts at this byte or behind it, and the rest; `None` where there is none.
+fn split_at_character(text: &str, at: usize) -> Option<(&str, &str)> {
+    let at = (at..text.len()).find(|at| text.is_char_boundary(*at))?;
+    text.split_at_checked(at)
+}
+
+/// The place behind a text that starts at a place.
+fn behind(place: SourceLocation, text: &str) -> SourceLocation {
+    let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+    let lines = text.bytes().filter(|byte| *byte == b'\n').count();
+    let (first, last) = text
+        .rsplit_once('\n')
+        .map_or((place.column, text), |(_, last)| (1, last));
+    SourceLocation {
+        line: place.line.saturating_add(count(lines)),
+        column: first.saturating_add(count(last.chars().count())),
     }
 }
 

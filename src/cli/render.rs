@@ -10,7 +10,7 @@ use super::picture::{Picture, on_threads, spec, tell_reading};
 use super::progress;
 use crate::figure::{Destination, Guard, save_picture};
 use crate::scene::DialectChoice;
-use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
+use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, in_gallery, list_scenes};
 
 /// Draws what the options ask for.
 pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Result<(), Failure> {
@@ -18,7 +18,9 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
         if options.scene.is_dir() {
             folder(options)
         } else {
-            if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
+            if let SceneSource::File(path) = SceneSource::from_address(&options.scene)
+                && in_gallery(&path).is_none()
+            {
                 // What is asked for decides whether the output is a picture or a folder.
                 ask_for(&path)?;
             }

@@ -10,7 +10,7 @@ use super::render::{name_for_png, unwritable};
 use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
 use super::{board, diff, lesson, sheet, spectrum};
 use crate::compare;
-use crate::figure::{Destination, Guard, Named, Record, save_picture};
+use crate::figure::{Destination, Guard, Named, Record, RecordError, save_picture};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
@@ -86,8 +86,13 @@ fn guard(options: &RerunOptions) -> Guard {
 /// What the picture tells.
 fn record_of(shot: &Path) -> Result<Record, Failure> {
     let name = shot.display();
-    let found = Record::of_file(shot)
-        .map_err(|error| Failure::input(format!("{name}: {error}; give a PNG that rasterscope wrote")))?;
+    let found = Record::of_file(shot).map_err(|error| {
+        let cure = match error {
+            RecordError::Newer { .. } => "",
+            _ => "; give a PNG that rasterscope wrote",
+        };
+        Failure::input(format!("{name}: {error}{cure}"))
+    })?;
     found.ok_or_else(|| {
         Failure::input(format!(
             "{name}: no record in this file; give a PNG that rasterscope wrote and no other program has changed"

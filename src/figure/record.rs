@@ -88,7 +88,10 @@ pub enum RecordError {
     #[error("the record in this picture is damaged: {0}")]
     Damaged(String),
     /// A later version wrote it.
-    #[error("the record in this picture has version {found}, and this program knows {known}", known = Record::VERSION)]
+    #[error(
+        "the record in this picture has version {found}, and this program knows {known}; a newer rasterscope draws it again",
+        known = Record::VERSION
+    )]
     Newer {
         /// Its version.
         found: u32,
@@ -116,8 +119,10 @@ impl Record {
     fn from_json(text: &str) -> Result<Self, RecordError> {
         let damaged = |error: serde_json::Error| RecordError::Damaged(error.to_string());
         let version = serde_json::from_str::<Version>(text).map_err(damaged)?.version;
-        if version > Self::VERSION {
-            return Err(RecordError::Newer { found: version });
+        match version {
+            0 => return Err(RecordError::Damaged("there is no version 0".to_owned())),
+            Self::VERSION => {}
+            found => return Err(RecordError::Newer { found }),
         }
         serde_json::from_str(text).map_err(damaged)
     }
@@ -252,6 +257,8 @@ mod tests {
 
     #[test]
     fn record_of_a_later_version_is_told() {
+        let none = Record::from_json(r#"{"version": 0}"#).expect_err("there never was one");
+        assert!(matches!(none, RecordError::Damaged(_)), "{none}");
         let text = r#"{"version": 2, "arguments": {"now": "an object"}}"#;
         let error = Record::from_json(text).expect_err("not known");
         assert!(matches!(error, RecordError::Newer { found: 2 }), "{error}");

@@ -29,7 +29,7 @@ mod quotes;
 mod report;
 mod resources;
 mod selectors;
-mod spelling;
+pub(crate) mod spelling;
 mod substitutes;
 mod svg;
 mod texture_files;

@@ -7,7 +7,7 @@ const SHORT: usize = 4;
 
 /// The candidate that is closest to `word`, where one is it up to a slip or two: a letter too many, missing, wrong or swapped with
 /// its neighbour. The case does not count.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let most = if word.len() <= SHORT { 1 } else { 2 };
     let slips = |candidate: &'a str| Some((slips(word, candidate, most)?, candidate));
     let found = candidates.into_iter().filter_map(slips);

@@ -98,7 +98,7 @@ pub use lesson::model::{Lesson, LessonError, LessonStep};
 pub use lesson::source::{BUILT_IN, LessonSource};
 pub use library::gallery;
 pub use library::state::SceneList;
-pub use library::{SceneEntry, SceneSource, SceneState, is_folder_of_course, list_scenes, natural_order};
+pub use library::{SceneEntry, SceneSource, SceneState, in_gallery, is_folder_of_course, list_scenes, natural_order};
 pub use settings::notes::{self, Study, ValueNote};
 pub use settings::patterns;
 pub use settings::picture::{self, PictureSetting, SettingChange};

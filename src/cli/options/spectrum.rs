@@ -17,8 +17,8 @@ pub(in crate::cli) struct SpectrumOptions {
     /// reads, or the scene before pixels sample it
     #[arg(long, default_value = SpectrumOf::default().name(), value_enum)]
     pub(in crate::cli) of: SpectrumOf,
-    /// The pixels that are transformed: column and row of the first, width and height [default: all]; of more than 512 the
-    /// middle
+    /// The pixels that are transformed: column and row of the first, width and height, as far as the picture has
+    /// them [default: all]; of more than 512 the middle
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub(in crate::cli) region: Option<Region>,
     /// A picture of the spectrum to write, with axes and the box of frequencies that pixels can show

@@ -38,6 +38,7 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     }
     let scenes = Scenes::new(options)?;
     let pins_file = options.pins.clone().unwrap_or_else(|| folder.join(pins::FILE));
+    let had_pins = pins_file.exists();
     let mut pins = Pins::read(pins_file, &known_pins())?;
     forget_stale_pin(&scenes, &mut pins)?;
     let inner = folder.join("scenes");
@@ -64,7 +65,15 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
         save_files(&[file], &guard).map_err(|(path, error)| unwritable(&path, &error))?;
     }
     let (count, page) = (figures.len(), folder.join("index.html").display().to_string());
-    print(&format!("{count} figures; {} shows all", plain::line(&page)))
+    print(&format!("{count} figures; {} shows all", plain::line(&page)))?;
+    match (&options.pins, had_pins) {
+        // Whoever names a file of pins may have meant one that is there.
+        (Some(file), false) => print(&format!(
+            "{}: there was no such file; it has the places of all insets now",
+            plain::line(&file.display().to_string())
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Protects what the options name.

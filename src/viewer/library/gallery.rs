@@ -2,7 +2,7 @@
 //!
 //! They are the files of `svg` and `assets/textures`; the suite holds this table against the folders.
 
-use crate::scene::{ResourceError, Resources};
+use crate::scene::{ResourceError, Resources, spelling};
 
 /// A scene of the built-in gallery.
 #[derive(Clone, Copy, Debug)]
@@ -157,10 +157,21 @@ pub(in crate::viewer) fn cure(name: &str) -> String {
         (Some(scene), 0) => format!("is gallery:{} meant?", scene.name),
         (Some(scene), others) => format!("give one of {} in full, such as gallery:{}", others + 1, scene.name),
         (None, _) => {
+            if let Some(scene) = nearest(&name) {
+                return format!("is gallery:{scene} meant?");
+            }
             let some = SCENES.first().map_or("", |scene| scene.name);
             format!("give one that is there, such as gallery:{some}")
         }
     }
+}
+
+/// The scene whose name is the same but for a slip or two: one without its folder, too.
+fn nearest(name: &str) -> Option<&'static str> {
+    let last = |name: &'static str| name.rsplit('/').next().unwrap_or(name).trim_end_matches(".svg");
+    let asked = name.rsplit('/').next().unwrap_or(name).trim_end_matches(".svg");
+    let found = spelling::nearest(asked, SCENES.iter().map(|scene| last(scene.name)))?;
+    SCENES.iter().map(|scene| scene.name).find(|name| last(name) == found)
 }
 
 #[cfg(test)]
@@ -173,6 +184,14 @@ mod tests {
         let study = SCENES.iter().filter(|scene| scene.name.starts_with("study/")).count();
         for (name, expected) in [
             ("02_FOX", "is gallery:illustration/02_fox.svg meant?".to_owned()),
+            (
+                "study/01_zone_plaet",
+                "is gallery:study/01_zone_plate.svg meant?".to_owned(),
+            ),
+            (
+                "1_zone_plate.svg",
+                "is gallery:study/01_zone_plate.svg meant?".to_owned(),
+            ),
             (
                 "nothing like it",
                 format!("give one that is there, such as gallery:{first}"),

@@ -290,8 +290,8 @@ impl SceneSource {
 /// Starts the address of a built-in scene.
 const GALLERY_PREFIX: &str = "gallery:";
 
-/// The name after the prefix in the path of a file that there is not.
-fn in_gallery(path: &Path) -> Option<&str> {
+/// The name that an address has in the gallery, `gallery:NAME`, unless there is a file of that path.
+pub fn in_gallery(path: &Path) -> Option<&str> {
     let name = path.to_str()?.strip_prefix(GALLERY_PREFIX)?;
     fs::symlink_metadata(path).is_err().then_some(name)
 }

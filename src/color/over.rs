@@ -64,6 +64,23 @@ impl Premultiplied16 {
         }
     }
 
+    /// Paints colours over others, each over one, as if each were of `opacity`, of [`Premultiplied16::ONE`]; as
+    /// [`Premultiplied16::faded`] and [`Premultiplied16::over`] for each, where nothing is truncated.
+    #[inline]
+    pub fn each_faded_over(opacity: u16, above: &[Self], below: &mut [Self]) {
+        if below.len() < LANES {
+            for (color, above) in below.iter_mut().zip(above) {
+                *color = above.faded(opacity).over(*color, Rules::Standard);
+            }
+        } else {
+            Self::each_faded_over_at(simd::level(), opacity, above, below);
+        }
+    }
+
+    fn each_faded_over_at(level: Level, opacity: u16, above: &[Self], below: &mut [Self]) {
+        dispatch!(level, simd => each_faded_over_each(simd, opacity, above, below));
+    }
+
     fn each_over_at(level: Level, above: &[Self], below: &mut [Self], rules: Rules) {
         dispatch!(level, simd => each_over_each(simd, above, below, rules));
     }
@@ -72,26 +89,74 @@ impl Premultiplied16 {
 #[inline(always)]
 fn one_over_all<S: Simd>(simd: S, above: Premultiplied16, below: &mut [Premultiplied16], rules: Rules) {
     let above = u64x8::splat(simd, above.to_word()).bitcast();
-    let rest = rest_of(above);
-    for below in below.chunks_mut(LANES) {
-        store(mixed(above, rest, load(simd, below), kept(simd, rules)), below);
+    let (rest, kept) = (rest_of(above), kept(simd, rules));
+    let (eights, few) = below.as_chunks_mut();
+    for below in eights {
+        *below = colors(mixed(above, rest, channels(simd, below), kept));
+    }
+    if !few.is_empty() {
+        let mixed = mixed(above, rest, channels(simd, &eight(few)), kept);
+        few.copy_from_slice(&colors(mixed)[..few.len()]);
     }
 }
 
 #[inline(always)]
 fn each_over_each<S: Simd>(simd: S, above: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
-    for (above, below) in above.chunks(LANES).zip(below.chunks_mut(LANES)) {
-        let above = load(simd, above);
-        let rest = rest_of(above);
-        let mixed = mixed(above, rest, load(simd, below), kept(simd, rules));
-        store(rest.simd_eq(0).select(above, mixed), below);
+    let kept = kept(simd, rules);
+    let (eights, few) = below.as_chunks_mut();
+    let (above, few_above) = above.as_chunks();
+    for (above, below) in above.iter().zip(eights) {
+        *below = colors(over_each(channels(simd, above), channels(simd, below), kept));
+    }
+    if !few.is_empty() {
+        let above = channels(simd, &eight(few_above));
+        let mixed = over_each(above, channels(simd, &eight(few)), kept);
+        few.copy_from_slice(&colors(mixed)[..few.len()]);
     }
 }
 
-/// Up to eight colours, two channels in each number, the former of the two in its lower half; the lanes that are left are
-/// transparent.
+/// Colours over others, opaque ones as they are.
 #[inline(always)]
-fn load<S: Simd>(simd: S, colors: &[Premultiplied16]) -> u32x16<S> {
+fn over_each<S: Simd>(above: u32x16<S>, below: u32x16<S>, kept: u32x16<S>) -> u32x16<S> {
+    let rest = rest_of(above);
+    rest.simd_eq(0).select(above, mixed(above, rest, below, kept))
+}
+
+#[inline(always)]
+fn each_faded_over_each<S: Simd>(simd: S, opacity: u16, above: &[Premultiplied16], below: &mut [Premultiplied16]) {
+    let opacity = u32x16::splat(simd, opacity.into());
+    let (eights, few) = below.as_chunks_mut();
+    let (above, few_above) = above.as_chunks();
+    for (above, below) in above.iter().zip(eights) {
+        *below = colors(faded_over(opacity, channels(simd, above), channels(simd, below)));
+    }
+    if !few.is_empty() {
+        let above = channels(simd, &eight(few_above));
+        let mixed = faded_over(opacity, above, channels(simd, &eight(few)));
+        few.copy_from_slice(&colors(mixed)[..few.len()]);
+    }
+}
+
+/// Colours of this opacity over others.
+#[inline(always)]
+fn faded_over<S: Simd>(opacity: u32x16<S>, above: u32x16<S>, below: u32x16<S>) -> u32x16<S> {
+    let faded = parts(above & 0xFFFF, opacity) | parts(above >> 16, opacity) << 16;
+    mixed(faded, rest_of(faded), below, kept(above.simd, Rules::Standard))
+}
+
+/// Fewer colours than fit, with transparent ones behind them.
+#[inline(always)]
+fn eight(few: &[Premultiplied16]) -> [Premultiplied16; LANES] {
+    let mut eight = [Premultiplied16::TRANSPARENT; LANES];
+    for (one, color) in eight.iter_mut().zip(few) {
+        *one = *color;
+    }
+    eight
+}
+
+/// The channels of colours, two in each number, the former of the two in its lower half.
+#[inline(always)]
+fn channels<S: Simd>(simd: S, colors: &[Premultiplied16; LANES]) -> u32x16<S> {
     let mut words = [0; LANES];
     for (word, color) in words.iter_mut().zip(colors) {
         *word = color.to_word();
@@ -99,12 +164,15 @@ fn load<S: Simd>(simd: S, colors: &[Premultiplied16]) -> u32x16<S> {
     u64x8::simd_from(simd, words).bitcast()
 }
 
+/// The colours of such channels.
 #[inline(always)]
-fn store<S: Simd>(channels: u32x16<S>, colors: &mut [Premultiplied16]) {
+fn colors<S: Simd>(channels: u32x16<S>) -> [Premultiplied16; LANES] {
     let words = <[u64; LANES]>::from(channels.bitcast::<u64x8<S>>());
+    let mut colors = [Premultiplied16::TRANSPARENT; LANES];
     for (color, word) in colors.iter_mut().zip(words) {
         *color = Premultiplied16::from_word(word);
     }
+    colors
 }
 
 /// How much of what is below shines through each colour, of [`Premultiplied16::ONE`], for both of its pairs of channels.
@@ -170,6 +238,11 @@ mod tests {
                     .collect::<arbtest::arbitrary::Result<Vec<_>>>()
             };
             let (above, below) = (colors(19)?, colors(19)?);
+            let opacity = u.int_in_range(0..=Premultiplied16::ONE)?;
+            let faded = |(above, below): (&Premultiplied16, &Premultiplied16)| {
+                above.faded(opacity).over(*below, Rules::Standard)
+            };
+            let of_faded: Vec<_> = above.iter().zip(&below).map(faded).collect();
             for rules in Rules::ALL {
                 let one = above[0];
                 let expected: Vec<_> = below.iter().map(|below| one.over(*below, rules)).collect();
@@ -188,8 +261,14 @@ mod tests {
                     let mut painted = below.clone();
                     Premultiplied16::each_over_at(level, &above, &mut painted, rules);
                     assert_eq!(painted, of_each, "{name}: {above:?} over {below:?}, {rules:?}");
+                    let mut painted = below.clone();
+                    Premultiplied16::each_faded_over_at(level, opacity, &above, &mut painted);
+                    assert_eq!(painted, of_faded, "{name}: {above:?} at {opacity} over {below:?}");
                 }
                 for count in [3, 11] {
+                    let mut painted = below[..count].to_vec();
+                    Premultiplied16::each_faded_over(opacity, &above[..count], &mut painted);
+                    assert_eq!(painted, of_faded[..count], "{count} at {opacity}");
                     let mut painted = below[..count].to_vec();
                     one.over_all(&mut painted, rules);
                     assert_eq!(painted, expected[..count], "{count} under one, {rules:?}");

@@ -25,8 +25,11 @@ impl Composite for Opacity {
 
     #[inline]
     fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
-        if self.0 != Premultiplied16::ONE || rules == Rules::Course {
+        if rules == Rules::Course {
             return self.each(layer, below, rules);
+        }
+        if self.0 != Premultiplied16::ONE {
+            return Premultiplied16::each_faded_over(self.0, layer, below);
         }
         // An isolated group is opaque or absent at most samples, and its neighbours are as it is.
         for (layer, below) in layer.chunks(TOGETHER).zip(below.chunks_mut(TOGETHER)) {

@@ -21,6 +21,8 @@ pub(crate) struct SurfaceTable<'a> {
     /// For each surface what it became under the latest translucent paint, and which paint that was.
     painted: Vec<(u32, SurfaceId)>,
     paint: u32,
+    /// How many were mixed of others.
+    pub(crate) mixed: usize,
     /// Whether anything is to be shaded.
     pub(crate) any_shaded: bool,
     /// Whether every sample is rounded for itself, and what lies over shaded primitives then.
@@ -37,6 +39,7 @@ impl<'a> SurfaceTable<'a> {
             flat: FlatResolve::new(resolver),
             painted: Vec::new(),
             paint: 0,
+            mixed: 0,
             any_shaded: false,
             rounding: Rounding::Sums,
             stacks: PaintStacks::default(),
@@ -49,6 +52,7 @@ impl<'a> SurfaceTable<'a> {
         self.flat.clear();
         self.painted.clear();
         self.paint = 0;
+        self.mixed = 0;
         self.any_shaded = false;
         self.rounding = rounding;
         self.stacks.clear();
@@ -128,6 +132,7 @@ impl<'a> SurfaceTable<'a> {
     /// A new surface for a translucent paint over what `below` shows; one that is to be shaded only where every sample is rounded
     /// for itself.
     pub(crate) fn mix(&mut self, below: SurfaceId, above: Translucent<'a>) -> SurfaceId {
+        self.mixed += 1;
         let mut mixed = *self.get(below);
         match (above, &mut mixed.shaded) {
             (above, Some(shaded)) if self.rounding == Rounding::Samples => {
@@ -163,6 +168,7 @@ impl<'a> SurfaceTable<'a> {
         sample: Premultiplied16,
         compositing: Compositing,
     ) -> SurfaceId {
+        self.mixed += 1;
         let below = self.get(below);
         debug_assert!(below.shaded.is_none(), "layers hold flat colours");
         self.push(SurfaceColor::flat(

@@ -95,7 +95,7 @@ fn split_at_character(text: &str, at: usize) -> Option<(&str, &str)> {
 /// The place behind a text that starts at a place.
 fn behind(place: SourceLocation, text: &str) -> SourceLocation {
     let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
-    let lines = text.bytes().filter(|byte| *byte == b'\n').count();
+    let lines = text.matches('\n').count();
     let (first, last) = text
         .rsplit_once('\n')
         .map_or((place.column, text), |(_, last)| (1, last));

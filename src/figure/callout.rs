@@ -69,8 +69,10 @@ pub enum InsetError {
     },
     /// It is too large for the picture, or would hide what is magnified.
     #[error(
-        "--inset {spec}: no room: its {width}x{height} pixels would hide {hides} or do not fit; give a smaller region or \
-         factor, another corner or a larger picture"
+        "--inset {spec}: no room: its {width}x{height} pixels would hide {hides} or do not fit; give {}a smaller region{} or a \
+         larger picture",
+        factor_that_fits(*fits),
+        if spec.corner.is_some() { ", another corner" } else { "" }
     )]
     NoRoom {
         /// The inset.
@@ -81,7 +83,15 @@ pub enum InsetError {
         height: u32,
         /// What is in the way.
         hides: &'static str,
+        /// The largest smaller magnification at which there is room, if there is.
+        fits: Option<u32>,
     },
+}
+
+/// The first cure of an inset without room.
+fn factor_that_fits(fits: Option<u32>) -> String {
+    fits.map(|factor| format!("the factor {factor}, which fits, "))
+        .unwrap_or_default()
 }
 
 impl InsetSpec {
@@ -278,7 +288,7 @@ fn draw_insets(
         return Ok(Vec::new());
     }
     let size = [picture.width(), picture.height()];
-    let all = layout(specs, size, view, vacancy)?;
+    let all = layout(specs, size, view, vacancy).map_err(|error| with_factor(error, specs, size, view))?;
     let (source, scale) = (picture.clone(), Scale::of(size));
     let stroke = scale.stroke();
     for placed in &all {
@@ -359,12 +369,37 @@ fn layout(
             width,
             height,
             hides,
+            fits: None,
         })?);
     }
     let both = insets.into_iter().zip(places);
     Ok(both
         .filter_map(|(inset, rect)| Some(Placed { inset, rect: rect? }))
         .collect())
+}
+
+/// The same error with the factor at which its inset has room among `specs`.
+fn with_factor(mut error: InsetError, specs: &[InsetSpec], size: [u32; 2], view: &ViewTransform) -> InsetError {
+    if let InsetError::NoRoom { spec: large, fits, .. } = &mut error {
+        let has_room = |magnification: &u32| {
+            let smaller = InsetSpec {
+                magnification: *magnification,
+                ..*large
+            };
+            let specs: Vec<InsetSpec> = specs
+                .iter()
+                .map(|spec| if spec == large { smaller } else { *spec })
+                .collect();
+            // Another one without room is the next one's error.
+            match layout(&specs, size, view, None) {
+                Ok(_) => true,
+                Err(InsetError::NoRoom { spec, .. } | InsetError::Outside { spec, .. }) => spec != smaller,
+            }
+        };
+        let smaller = *Inset::MAGNIFICATION.start()..large.magnification;
+        *fits = smaller.rev().find(has_room);
+    }
+    error
 }
 
 /// Where an inset of `size` may go, the best places first: corners, where eyes look for it, then all along the sides. Short
@@ -581,6 +616,35 @@ mod tests {
             .expect_err("one corner")
             .to_string();
         assert!(error.contains("another inset"), "{error}");
+    }
+
+    #[test]
+    fn insets_without_room_say_what_fits() {
+        let size = [200, 160];
+        for (text, cures) in [
+            ("100,80:16@8", "a smaller region or a larger picture"),
+            (
+                "100,80:16@8:top-left",
+                "a smaller region, another corner or a larger picture",
+            ),
+            ("100,80:64@8", "a smaller region or a larger picture"),
+        ] {
+            let spec: InsetSpec = text.parse().expect("a spec");
+            let mut picture = Framebuffer::new(size[0], size[1]);
+            let error = draw_insets(&mut picture, &[spec], &view(), None).expect_err("too large");
+            let has_room = |magnification: &u32| {
+                let smaller = InsetSpec {
+                    magnification: *magnification,
+                    ..spec
+                };
+                layout(&[smaller], size, &view(), None).is_ok()
+            };
+            let factor = (2..8).rev().find(has_room);
+            assert_eq!(factor.is_some(), spec.region == 16, "{text}: a small region fits");
+            let factor = factor.map(|factor| format!("the factor {factor}, which fits, "));
+            let cures = format!("; give {}{cures}", factor.unwrap_or_default());
+            assert!(error.to_string().ends_with(&cures), "{text}: {error}");
+        }
     }
 
     #[test]

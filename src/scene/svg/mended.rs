@@ -52,6 +52,18 @@ pub(super) fn mend_filter(node: Node<'_, '_>, elements: &Elements<'_>, edits: &m
     }
 }
 
+/// Takes its `textLength` from a text with others inside: usvg has each run of letters alone as long as it, or none. What is to be
+/// said of it.
+pub(super) fn drop_text_length(node: Node<'_, '_>, edits: &mut Edits) -> Option<&'static str> {
+    let length = node.attributes().find(|attribute| attribute.name() == "textLength")?;
+    let holds = |name: &str| node.children().any(|child| child.tag_name().name() == name);
+    if !["tspan", "textPath", "a", "tref"].into_iter().any(holds) {
+        return None;
+    }
+    edits.replace(length.range(), String::new());
+    Some("textLength has no effect where elements stand in a text: its letters are as wide as they are")
+}
+
 /// Shortest side of a pattern's tile: usvg does not survive those that 32-bit floats do not tell from nothing beside what they fill.
 const FINEST: f64 = 1e-6;
 

@@ -368,6 +368,9 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         if let Some(message) = mended::hide_fine_pattern(node, &mut self.edits) {
             self.listener.warn(node, message);
         }
+        if let Some(message) = mended::drop_text_length(node, &mut self.edits) {
+            self.listener.warn(node, message.to_owned());
+        }
         nonsense::hide(self.text, node, |name| styled.has_length(name), &mut self.edits);
         if node.tag_name().name() == "style" {
             cascade::unmark_sheet(self.text, node, &mut self.edits);

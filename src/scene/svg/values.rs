@@ -59,7 +59,7 @@ const BLEND_MODES: [&str; 16] = [
 ];
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 22] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 24] = [
     ("all", &[]),
     ("animation", &["none"]),
     ("animation-name", &["none"]),
@@ -71,12 +71,14 @@ const WITHOUT_EFFECT: [(&str, &[&str]); 22] = [
     ("direction", &["ltr"]),
     ("filter", &["none"]),
     ("font-variant", &["normal"]),
+    ("glyph-orientation-vertical", &["auto"]),
     ("image-orientation", &["none", "from-image"]),
     ("inline-size", &["auto", "0", "0px"]),
     ("mask-image", &["none"]),
     ("rotate", &["none", "0", "0deg"]),
     ("scale", &["none", "1"]),
     ("shape-inside", &["auto"]),
+    ("text-orientation", &["mixed"]),
     ("text-shadow", &["none"]),
     ("text-transform", &["none"]),
     ("transform-box", &["view-box"]),
@@ -109,6 +111,8 @@ fn kind(name: &str) -> Option<Kind> {
         | "vector-effect"
         | "font-variant"
         | "direction"
+        | "glyph-orientation-vertical"
+        | "text-orientation"
         | "clip"
         | "white-space" => Kind::Words(&[]),
         "mix-blend-mode" => Kind::Words(&BLEND_MODES),

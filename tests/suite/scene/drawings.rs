@@ -416,3 +416,25 @@ fn own_triangles_stand_in_drawings() {
     ));
     assert!(hidden.primitives.is_empty(), "{:?}", hidden.primitives);
 }
+
+#[test]
+fn lengths_of_texts_with_others_inside_are_told_to_have_no_effect() {
+    let text = |length: &str, inside: &str| svg_scene(&format!("<text y='9' {length}>{inside}</text>"));
+    let long = "textLength='99'";
+    assert!(kinds(&text(long, "plain")) != kinds(&text("", "plain")), "a text alone");
+    assert_eq!(
+        lines(&text(long, "plain")),
+        lines(&text("", "plain")),
+        "nothing to tell"
+    );
+    for inside in ["<tspan>one</tspan>", "mix <tspan>one</tspan> end"] {
+        let (found, plain) = (text(long, inside), text("", inside));
+        assert!(kinds(&found) == kinds(&plain), "{inside}: as without");
+        let told = lines(&found);
+        assert_eq!(told.len(), lines(&plain).len() + 1, "{inside}: {told:?}");
+        assert!(
+            told.iter().any(|line| line.contains("textLength has no effect")),
+            "{inside}: {told:?}"
+        );
+    }
+}

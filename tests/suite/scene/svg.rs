@@ -328,6 +328,9 @@ fn svg_tells_what_it_passes_over() {
         ("style='font-variant: small-caps'", "font-variant"),
         ("direction='rtl'", "direction"),
         ("direction='ltr' font-variant='normal'", ""),
+        ("text-orientation='upright'", "text-orientation"),
+        ("style='glyph-orientation-vertical: 0'", "glyph-orientation-vertical"),
+        ("text-orientation='mixed'", ""),
     ] {
         let found = lines(&svg_scene(&format!("{RECT}{look}/>")));
         assert_eq!(found.len(), usize::from(!told.is_empty()), "{look}: {found:?}");

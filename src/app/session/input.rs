@@ -68,7 +68,10 @@ impl Session {
         let Command::Window(WindowCommand::ToggleDialog(asked)) = command else {
             return false;
         };
-        let takes_text = matches!(asked, Dialog::Open | Dialog::GoToPixel | Dialog::SaveAs);
+        let takes_text = matches!(
+            asked,
+            Dialog::Palette | Dialog::Open | Dialog::GoToPixel | Dialog::SaveAs
+        );
         takes_text && self.viewer.chrome().dialog() == Some(*asked)
     }
 

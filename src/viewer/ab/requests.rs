@@ -144,8 +144,15 @@ impl Comparison {
     /// Shows the other of both, until it is asked for again.
     pub(in crate::viewer) fn flip_by_hand(&mut self, context: &mut ComparisonContext<'_>) {
         let shows_back = self.flip_shows_back();
+        let is_without = self.other.is_none() && self.loading.is_none();
         if self.arrangement() != Arrangement::Flip {
             self.arrange(Arrangement::Flip, context);
+        }
+        if is_without {
+            context.messages.retract(KEPT);
+            context.messages.done(format!(
+                "{KEPT}, and is what you see; B again shows A, which changes with the settings"
+            ));
         }
         self.flip = Some((None, !shows_back));
     }

@@ -104,6 +104,21 @@ fn clicked_pixel_stays_under_the_pointer_side_by_side() {
 }
 
 #[test]
+fn key_that_makes_b_says_that_it_is_shown() {
+    let mut session = session(Vec::new(), WINDOWS[1]);
+    key(&mut session, "b");
+    session.settle();
+    assert!(session.viewer().ab().shows_b(), "B instead of A");
+    assert!(
+        says(&mut session, "and is what you see"),
+        "what settings change is not to be seen"
+    );
+    key(&mut session, "b");
+    session.settle();
+    assert!(!session.viewer().ab().shows_b(), "A again");
+}
+
+#[test]
 fn another_view_of_both_moves_no_panel() {
     let buttons = [CLOSE, "Show: wipe", "Show: side", "Show: diff", "Show: flip", "Show: A"];
     for window in WINDOWS {

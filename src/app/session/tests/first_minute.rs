@@ -322,7 +322,11 @@ fn files_are_opened_by_keys() {
 
 #[test]
 fn key_that_opened_a_question_does_not_close_it() {
-    for (name, dialog) in [("Ctrl+O", Dialog::Open), ("Ctrl+G", Dialog::GoToPixel)] {
+    for (name, dialog) in [
+        ("Ctrl+O", Dialog::Open),
+        ("Ctrl+G", Dialog::GoToPixel),
+        ("Ctrl+Shift+P", Dialog::Palette),
+    ] {
         let mut session = session(Vec::new(), [800, 600]);
         let rate = session.viewer().settings().render.sample_rate;
         for _ in 0..2 {

@@ -97,7 +97,9 @@ impl DisplayList<'_> {
                 let rect = self.context.tiles.pixels(column, row, self.context.frame_size);
                 let mut block = PixelBlock::new(rect, &mut pixels, width as usize);
                 self.tile(pass, &mut painters, tile.tile, &mut block);
-                publish(tile.region, &pixels);
+                if !pass.cancelled.load(Ordering::Relaxed) {
+                    publish(tile.region, &pixels);
+                }
             }
             pass.tally.take(&mut painters.tally);
         };

@@ -24,6 +24,9 @@ const FEW_CHUNKS: usize = 16;
 /// One tile of so many is timed.
 const TIMED: usize = 7;
 
+/// Commands that are painted sample by sample before it is looked again whether anybody still waits for them.
+const BETWEEN_LOOKS: usize = 16;
+
 /// A painter for each method.
 #[derive(Debug)]
 pub(in crate::raster) struct Painters<'a> {
@@ -96,6 +99,9 @@ impl DisplayList<'_> {
             let rect = self.context.tiles.pixels(column, row.number, self.context.frame_size);
             let mut block = PixelBlock::in_rows(rect, row.pixels, stride).showing(shown);
             self.numbered_tile(pass, painters, tile, &mut block);
+        }
+        if pass.cancelled.load(Ordering::Relaxed) {
+            return;
         }
         row.keep();
         pass.tally.take(&mut painters.tally);
@@ -177,7 +183,7 @@ impl DisplayList<'_> {
         Some(self.settings.recolor.map_or(pixel, |recolor| recolor.unclamped(pixel)))
     }
 
-    /// As [`DisplayList::numbered_tile`], with all samples painted.
+    /// As [`DisplayList::numbered_tile`], with all samples painted; the block is unfinished once the pass is cancelled.
     pub(in crate::raster) fn paint_tile<'s>(
         &'s self,
         pass: &Pass<'_>,
@@ -241,10 +247,8 @@ impl DisplayList<'_> {
             }
             Method::PerSample => {
                 painters.per_sample.begin(painted, background);
-                for (chunk, entries) in visible(&pass.bins, tile, first) {
-                    painters
-                        .per_sample
-                        .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
+                if !self.paint_samples(pass, painters, visible(&pass.bins, tile, first)) {
+                    return;
                 }
                 resolving = start.map(|_| Instant::now());
                 painters.per_sample.resolve_tile(block);
@@ -259,6 +263,27 @@ impl DisplayList<'_> {
         if let Some(recolor) = self.settings.recolor.filter(|_| !self.tells_clamped()) {
             block.map(|pixel| recolor.unclamped(pixel));
         }
+    }
+
+    /// Paints samples one by one by these commands, chunk by chunk; false where the pass is cancelled meanwhile: thousands of
+    /// paints over hundreds of samples a pixel take seconds.
+    fn paint_samples<'c>(
+        &self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'_>,
+        commands: impl Iterator<Item = (usize, &'c [TileCommand])>,
+    ) -> bool {
+        for (chunk, entries) in commands {
+            for entries in entries.chunks(BETWEEN_LOOKS) {
+                if pass.cancelled.load(Ordering::Relaxed) {
+                    return false;
+                }
+                painters
+                    .per_sample
+                    .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
+            }
+        }
+        true
     }
 
     /// Finds the surfaces that the samples of the tile `painted` show under these commands, chunk by chunk; false where they are
@@ -292,5 +317,48 @@ impl DisplayList<'_> {
         };
         // Sums of flat colours are those of the samples; of those of what is shaded no other method gives the same bytes.
         rounding == Rounding::Sums && !is_flat() && paint(Crowds::Painted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use glam::DVec2;
+
+    use super::*;
+    use crate::color::Rgba;
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::context::ListContext;
+    use crate::raster::shading::Paint;
+    use crate::raster::{PixelCoverage, RasterSettings};
+
+    #[test]
+    fn tiles_that_are_cancelled_stay_as_they_were() {
+        let size = [5, 3];
+        // Such areas are blended sample by sample.
+        let settings = RasterSettings {
+            coverage: PixelCoverage::Exact,
+            ..RasterSettings::default()
+        };
+        let context = ListContext::new(size, &settings);
+        let mut builder = ChunkBuilder::new(&context, 1);
+        let all = [DVec2::new(-9.0, -9.0), DVec2::new(30.0, 0.0), DVec2::new(0.0, 30.0)];
+        let veil = Rgba {
+            a: 0.5,
+            ..Rgba::opaque(1.0, 0.3, 0.9)
+        };
+        builder.triangle(all, &Paint::solid(veil));
+        let list = DisplayList::new(context, settings, vec![builder.finish()], Vec::new().into());
+        let rect = list.context.tiles.pixels(0, 0, size);
+        for is_cancelled in [false, true] {
+            let cancelled = AtomicBool::new(is_cancelled);
+            let pass = list.pass(&list.plan(), Span { start: 0, end: 1 }, &cancelled);
+            let before = [0x1234_5678; 15];
+            let mut pixels = before;
+            let mut painters = list.painters();
+            list.paint_tile(&pass, &mut painters, 0, &mut PixelBlock::new(rect, &mut pixels, 5));
+            assert_eq!(pixels == before, is_cancelled, "cancelled: {is_cancelled}");
+        }
     }
 }

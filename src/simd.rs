@@ -48,6 +48,8 @@ pub fn available() -> Vec<(&'static str, Level)> {
     let mut levels = vec![("baseline", baseline())];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
+        // Where kernels are not compiled for it, it is the baseline by another name; see `.cargo/config.toml`.
+        #[cfg(not(disable_dispatch_sse4_2))]
         levels.extend(best.as_sse4_2().map(|token| ("sse4.2", Level::Sse4_2(token))));
         levels.extend(best.as_avx2().map(|token| ("avx2", Level::Avx2(token))));
         levels.extend(best.as_avx512().map(|token| ("avx512", Level::Avx512(token))));

@@ -14,10 +14,11 @@ use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, mask32x16, u16x32, u3
 
 use super::bilinear::SUM_SHIFT;
 use super::filter_plan::{GridLevel, Plan};
+use super::filtered_samples::SampleKernel;
 use super::nearest_samples::ones;
 use super::nearest_values::{ByteValues, ValueList};
 use super::sample_blocks::{BlockAxis, Blocks, Inside, LANES, Steps, halves, is_in_doubt, is_near, number};
-use super::{PixelSampling, Wrap, sample_filter};
+use super::{PixelSampling, Wrap};
 use crate::color::{NearLight, Premultiplied16, near_light_of_stored};
 use crate::simd::put_lanes;
 
@@ -145,6 +146,7 @@ impl<'w> BilinearList<'w> {
     fn one_by_one(self, level: Level, pixels: &[usize], mut visit: impl FnMut(usize, &[Premultiplied16])) {
         /// Pixels that are shaded together.
         const TOGETHER: usize = 16;
+        let kernel = SampleKernel::new(self.plan);
         let (mut points, mut colors) = (Vec::new(), Vec::new());
         for pixels in pixels.chunks(TOGETHER) {
             points.clear();
@@ -153,7 +155,7 @@ impl<'w> BilinearList<'w> {
             }
             colors.clear();
             colors.resize(points.len(), Premultiplied16::TRANSPARENT);
-            dispatch!(level, simd => sample_filter::filter_with(simd, self.plan, &points, &mut colors));
+            kernel.filter(level, &points, &mut colors);
             for (pixel, colors) in pixels.iter().zip(colors.chunks_exact(self.list.count)) {
                 visit(*pixel, colors);
             }

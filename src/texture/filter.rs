@@ -1,20 +1,16 @@
 //! Filtering many fragments of one triangle: which levels its footprint reads, and where its samples lie in them.
 
-use fearless_simd::dispatch;
 use glam::DVec2;
 
 use super::bilinear::mass;
 use super::bilinear_values::BilinearList;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
+use super::filtered_samples::SampleKernel;
 use super::nearest_values::ValueList;
 use super::pixel_filter::PixelWork;
 use super::pyramid::NumberedLevel;
-use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap, Wrap};
-use super::{
-    anisotropic_filter, block_filter, fixed_point, nearest_light, nearest_scattered, nearest_values, pixel_filter,
-    sample_filter,
-};
+use super::{fixed_point, nearest_light, nearest_scattered, nearest_values, pixel_filter};
 use crate::color::{LightResolver, NearLight, Premultiplied16};
 use crate::simd::Level;
 
@@ -116,13 +112,13 @@ impl<'a> Filter<'a> {
     /// `points[i]` is a sample column and row counted from the first sample of the grid's origin; sample column `c` of
     /// the screen lies at `(c + 0.5) / side`. The colour at `points[i]` is written to `out[i]`.
     pub fn points(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
-        filter_samples(simd, &self.plan(grid), points, out);
+        SampleKernel::new(&self.plan(grid)).filter(simd, points, out);
     }
 
     /// As [`Filter::points`], but as pixels `0xAARRGGBB`: [`Premultiplied16::to_pixel`] of the colours, which must be
     /// opaque.
     pub fn pixels(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [u32]) {
-        filter_samples(simd, &self.plan(grid), points, out);
+        SampleKernel::new(&self.plan(grid)).filter(simd, points, out);
     }
 
     /// The sums of the premultiplied colours over the samples of pixels, channels as in [`Premultiplied16`]. The sum over
@@ -244,19 +240,6 @@ impl<'a> FilterLevel<'a> {
             x: axis(self.at_pivot.x, self.dx.x, self.dy.x, self.level.width()),
             y: axis(self.at_pivot.y, self.dx.y, self.dy.y, self.level.height()),
         }
-    }
-}
-
-/// See [`super::Filter::points`] and [`super::Filter::pixels`].
-// Inlined into its callers its loops take 3 % more instructions.
-#[inline(never)]
-fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    if let Some(weights) = plan.block() {
-        dispatch!(level, simd => block_filter::filter_with(simd, plan, &weights, points, out));
-    } else if plan.line.taps.count == 1 {
-        dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));
-    } else {
-        dispatch!(level, simd => anisotropic_filter::filter_with(simd, plan, points, out));
     }
 }
 

@@ -21,6 +21,7 @@ mod ewa_filter;
 mod few_texels;
 mod filter;
 mod filter_plan;
+mod filtered_samples;
 mod fixed_point;
 mod folded_blocks;
 mod footprint;

@@ -15,6 +15,7 @@ use glam::DVec2;
 use super::bilinear::add;
 use super::covered::Covered;
 use super::filter_plan::{Axis, PixelList, Plan};
+use super::filtered_samples::SampleKernel;
 use super::fixed_point::FRACTION_BITS;
 use super::nearest_counts::{Counts, FourTexels};
 use super::nearest_samples::{FEW, MANY, NearestSamples, Uncertain};
@@ -22,7 +23,6 @@ use super::sample_filter::RowPairs;
 use super::simd_channels::Spread;
 use super::texel_coordinates::{MAX_LANES, in_texture};
 use super::wrap;
-use super::{block_filter, sample_filter};
 use crate::color::Premultiplied16;
 
 /// Which texels the samples of a vector of pixels read.
@@ -362,12 +362,6 @@ pub(super) fn exact_colors<S: Simd, const N: usize>(
         count += 1;
     }
     let (points, colors) = (&points[..count], &mut colors[..count]);
-    simd.vectorize(
-        #[inline(always)]
-        || match plan.block() {
-            Some(weights) => block_filter::filter_with(simd, plan, &weights, points, colors),
-            None => sample_filter::filter_with(simd, plan, points, colors),
-        },
-    );
+    SampleKernel::new(plan).filter(simd.level(), points, colors);
     colors.iter().copied().for_each(each);
 }

@@ -11,8 +11,8 @@ use fearless_simd::{Simd, dispatch, i32x8, u16x8, u32x4};
 
 use super::block_weights::{LARGE, rows, rows_beyond};
 use super::covered::Covered;
-use super::cubic::TexelWeights;
 use super::filter_plan::{PixelList, Plan};
+use super::filtered_samples::SampleKernel;
 use super::fixed_point::{MASS, MASS_BITS};
 use super::folded_blocks::Folded;
 use super::nearest_counts::FourTexels;
@@ -20,10 +20,10 @@ use super::nearest_means::{self, ByteMean};
 use super::nearest_samples::{FEW, MANY, NearestSamples};
 use super::nearest_sums;
 use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
-use super::simd_channels::{self, FromColors, Spread};
+use super::simd_channels::{self, Spread};
 use super::tent_weights::weigh;
 use super::texel_coordinates::{Positions, columns_and_rows};
-use super::{PixelSampling, Wrap, anisotropic_filter, block_filter, sample_filter};
+use super::{PixelSampling, Wrap};
 use crate::color::{Premultiplied16, Resolver};
 use crate::simd::{Level, PACKED, pack_four};
 
@@ -77,19 +77,14 @@ pub(super) fn find(level: Level, plan: &Plan<'_>, side: u32, mut work: PixelWork
         return are_means;
     }
     let scale = Scale::new(side);
-    let (footings, block) = (Footings::of_plan(plan, scale), plan.block());
+    let (footings, kernel) = (Footings::of_plan(plan, scale), SampleKernel::new(plan));
     for (list, sums) in work.by_list() {
-        let samples = Samples { plan, scale, list };
-        match (&footings, &block) {
-            (Some(footings), _) if plan.wrap == Wrap::Clamp => {
+        match &footings {
+            Some(footings) if plan.wrap == Wrap::Clamp => {
                 dispatch!(level, simd => sum_texels::<_, false>(simd, plan, footings, list, sums));
             }
-            (Some(footings), _) => dispatch!(level, simd => sum_texels::<_, true>(simd, plan, footings, list, sums)),
-            (None, Some(weights)) => dispatch!(level, simd => sum_samples(simd, samples, weights, sums)),
-            (None, None) if plan.line.taps.count == 1 => {
-                dispatch!(level, simd => sum_samples(simd, samples, &OneTap, sums));
-            }
-            (None, None) => dispatch!(level, simd => sum_samples(simd, samples, &SeveralTaps, sums)),
+            Some(footings) => dispatch!(level, simd => sum_texels::<_, true>(simd, plan, footings, list, sums)),
+            None => dispatch!(level, simd => sum_samples(simd, &kernel, scale.side, list, sums)),
         }
     }
     false
@@ -115,47 +110,6 @@ impl<'w> PixelWork<'w> {
         both.map(|(list, sums)| (list, &mut **sums))
             .filter(|(list, _)| !list.pixels.is_empty())
     }
-}
-
-/// How samples are filtered one by one.
-trait FilterSamples {
-    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]);
-}
-
-/// With one tap each.
-struct OneTap;
-
-/// With several taps each.
-struct SeveralTaps;
-
-impl FilterSamples for OneTap {
-    #[inline(always)]
-    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-        sample_filter::filter_with(simd, plan, points, out);
-    }
-}
-
-impl FilterSamples for SeveralTaps {
-    #[inline(always)]
-    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-        anisotropic_filter::filter_with(simd, plan, points, out);
-    }
-}
-
-/// With any number of taps, of blocks of texels.
-impl FilterSamples for TexelWeights {
-    #[inline(always)]
-    fn filter<S: Simd, C: FromColors>(&self, simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-        block_filter::filter_with(simd, plan, self, points, out);
-    }
-}
-
-/// The samples of a list's pixels.
-#[derive(Clone, Copy)]
-struct Samples<'s> {
-    plan: &'s Plan<'s>,
-    scale: Scale,
-    list: PixelList<'s>,
 }
 
 /// Fetches a texel for every sample, or fewer, where that is all; if so, whether means were found.
@@ -197,20 +151,15 @@ fn find_nearest_of<const N: usize>(level: Level, plan: &Plan<'_>, side: u32, wor
 
 /// Filters every sample.
 #[inline(always)]
-fn sum_samples<S: Simd>(
-    simd: S,
-    Samples { plan, scale, list }: Samples<'_>,
-    filter: &impl FilterSamples,
-    sums: &mut [[u32; 4]],
-) {
+fn sum_samples<S: Simd>(simd: S, kernel: &SampleKernel<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
     let mut inside = [[0; 2]; MAX_SIDE * MAX_SIDE];
-    let side = scale.side as usize;
-    for (j, row) in (0..).zip(inside.chunks_exact_mut(side).take(side)) {
+    let columns = side as usize;
+    for (j, row) in (0..).zip(inside.chunks_exact_mut(columns).take(columns)) {
         for (i, sample) in (0..).zip(row) {
             *sample = [i, j];
         }
     }
-    let inside = &inside[..side * side];
+    let inside = &inside[..columns * columns];
     let mut colors = [Premultiplied16::TRANSPARENT; BATCH];
     sums.fill([0; 4]);
     let mut batch = Batch::EMPTY;
@@ -219,13 +168,13 @@ fn sum_samples<S: Simd>(
     while next.pixel < list.pixels.len() {
         let first = next.pixel;
         if are_whole {
-            batch.fill_whole(list.pixels, inside, scale.side, &mut next);
+            batch.fill_whole(list.pixels, inside, side, &mut next);
         } else {
-            batch.fill(simd, list, (inside, scale.side), &mut next);
+            batch.fill(simd, list, (inside, side), &mut next);
         }
         let points = &batch.points[..batch.count];
         let colors = &mut colors[..batch.count];
-        filter.filter(simd, plan, points, colors);
+        kernel.filter(simd.level(), points, colors);
         if are_whole {
             for (sum, colors) in sums[first..].iter_mut().zip(colors.chunks_exact(inside.len())) {
                 *sum = Premultiplied16::sums(colors);

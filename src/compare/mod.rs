@@ -8,6 +8,7 @@
 
 mod cause;
 mod flip;
+mod flip_lanes;
 mod gaussian;
 mod hypotheses;
 mod levels;
@@ -17,6 +18,7 @@ mod pair;
 mod picture;
 mod places;
 mod plane;
+mod powers;
 mod profile;
 mod region;
 mod show;

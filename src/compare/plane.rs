@@ -28,6 +28,11 @@ impl Plane {
         &self.values
     }
 
+    /// The same, and nothing else is kept.
+    pub(super) fn into_values(self) -> Vec<f32> {
+        self.values
+    }
+
     /// Each number becomes the sum of its neighbours in the row times `kernel`, which has an odd length and is not
     /// mirrored: its first weight is that of the leftmost neighbour. `margin` numbers at either end of a row are left
     /// out; it is at least half of the kernel's length.

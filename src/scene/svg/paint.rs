@@ -30,7 +30,23 @@ impl<'doc> Painter<'_, 'doc> {
             shape,
             opacity: 1.0,
         };
-        self.group(tree.root(), place)
+        if !has_blends(tree.root()) {
+            return self.group(tree.root(), place);
+        }
+        // The root is an isolated group, too (Compositing and Blending 1, section 2.2): what lies below it is the paper, with which
+        // nothing is blended by its own mode.
+        let mark = self.builder.mark();
+        self.builder.begin_layer(place.shape)?;
+        self.group(tree.root(), place)?;
+        if self.builder.is_empty_layer() {
+            self.builder.take_back(mark);
+            return Ok(());
+        }
+        let composite = Composite::Over {
+            opacity: 1.0,
+            blend: BlendMode::Normal,
+        };
+        self.builder.end_layer(place.shape, composite)
     }
 
     /// Paints a group, on a layer of its own where that makes a difference.
@@ -381,6 +397,18 @@ fn is_pixelated(rendering: ImageRendering) -> bool {
 fn is_plain(group: &Group, clip: Option<&ClipPath>) -> bool {
     let blends = group.blend_mode() != usvg::BlendMode::Normal;
     !blends && !group.isolate() && clip.is_none() && group.mask().is_none()
+}
+
+/// Whether anything in a group is blended with what lies behind the group.
+fn has_blends(group: &Group) -> bool {
+    group.children().iter().any(|child| match child {
+        usvg::Node::Group(group) => {
+            let blends = group.blend_mode() != usvg::BlendMode::Normal;
+            let is_open = group.opacity().get() >= 1.0 && is_plain(group, group.clip_path());
+            blends || is_open && has_blends(group)
+        }
+        _ => false,
+    })
 }
 
 /// Whether one thing is painted at most, so that it may be faded itself.

@@ -59,7 +59,7 @@ const BLEND_MODES: [&str; 16] = [
 ];
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 24] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 25] = [
     ("all", &[]),
     ("animation", &["none"]),
     ("animation-name", &["none"]),
@@ -78,6 +78,8 @@ const WITHOUT_EFFECT: [(&str, &[&str]); 24] = [
     ("rotate", &["none", "0", "0deg"]),
     ("scale", &["none", "1"]),
     ("shape-inside", &["auto"]),
+    // Others are drawn as the first of these.
+    ("stroke-linejoin", &["miter", "round", "bevel"]),
     ("text-orientation", &["mixed"]),
     ("text-shadow", &["none"]),
     ("text-transform", &["none"]),

@@ -47,8 +47,9 @@ fn told(pixel: [u32; 2], settings: &RenderSettings) -> (Explanation, String) {
 #[test]
 fn gradients_tell_their_place_and_the_stops_around_it() {
     let (found, text) = told([10, 5], &at_rate(1));
-    let Some(Seen::Polygon { value, .. }) = found.paints[0].views.first() else {
-        panic!("a polygon: {:?}", found.paints[0]);
+    let first = found.paints.iter().find_map(|paint| paint.views.first());
+    let Some(Seen::Polygon { value, .. }) = first else {
+        panic!("a polygon: {first:?}");
     };
     let Interpolated::Gradient { t, stops, weight, .. } = value else {
         panic!("a gradient: {value:?}");
@@ -316,5 +317,38 @@ fn more_samples_are_not_advised_where_the_truth_is_no_surer() {
         let text = told_of(edge, [4, 5], rate);
         let advised = text.contains(" samples (key = steps to it in the window): ");
         assert_eq!(advised, is_advised, "{rate} samples: {text}");
+    }
+}
+
+#[test]
+fn modes_at_the_root_leave_the_paper_alone() {
+    for mode in ["multiply", "screen", "difference", "exclusion", "lighten"] {
+        let document = format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="20" height="10">
+<rect width="9" height="9" fill="#f00" style="mix-blend-mode:{mode}"/><g><rect x="5" width="9" height="9" fill="#00f" style="mix-blend-mode:{mode}"/></g></svg>"##
+        );
+        let scene = read(&document, DialectChoice::Svg);
+        let settings = RenderSettings {
+            background: Rgba::WHITE,
+            outline: false,
+            ..at_rate(4)
+        };
+        let mut frame = Framebuffer::new(20, 10);
+        draw(
+            &scene,
+            &View::Canvas.transform(scene.canvas, [20, 10]),
+            &settings,
+            &mut frame,
+        );
+        // As browsers have it, and resvg.
+        let both = if mode == "multiply" { [0; 3] } else { [255, 0, 255] };
+        let found = [[2, 4], [7, 4], [12, 4], [18, 4]].map(|[x, y]| frame.rgba(x, y).expect("inside"));
+        let expected = [[255, 0, 0], both, [0, 0, 255], [255; 3]].map(|[r, g, b]| [r, g, b, 255]);
+        assert_eq!(found, expected, "{mode}");
+        let text = advised(&scene, &settings, [20, 10], [2, 4]).to_string();
+        assert!(
+            text.contains("nothing is below: the layer's colour stays as it is, whatever the mode"),
+            "{mode}: {text}"
+        );
     }
 }

@@ -342,7 +342,7 @@ fn what_changes_nothing_is_not_said_to_show() {
     let white = multiplied("#fff");
     let sentence = white.pixel_lines().join("\n");
     assert!(
-        sentence.contains("Its only sample shows 2 (polygon of rect"),
+        sentence.contains("Its only sample shows 3 (polygon of rect"),
         "{sentence}"
     );
     assert!(

@@ -329,6 +329,8 @@ fn svg_tells_what_it_passes_over() {
         ("direction='rtl'", "direction"),
         ("direction='ltr' font-variant='normal'", ""),
         ("text-orientation='upright'", "text-orientation"),
+        ("stroke-linejoin='arcs'", "stroke-linejoin"),
+        ("stroke-linejoin='bevel'", ""),
         ("style='glyph-orientation-vertical: 0'", "glyph-orientation-vertical"),
         ("text-orientation='mixed'", ""),
     ] {

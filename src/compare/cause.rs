@@ -16,6 +16,8 @@ use crate::texture::{LevelSampling, PixelSampling};
 pub enum Cause {
     /// The canvas fills the picture, without a margin and an outline: [`View::Canvas`].
     Filled,
+    /// Nothing is painted behind the scene.
+    TransparentBackground,
     /// Everything is moved to the right and down by these pixels.
     Shifted([f64; 2]),
     /// Samples lie in a corner of their cells, which are pixels where there is one sample in each. Shapes are then seen as
@@ -79,6 +81,7 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Filled => f.write_str("the canvas fills the picture, without a margin (view canvas)"),
+            Self::TransparentBackground => f.write_str("a transparent background (background transparent)"),
             Self::Shifted([x, y]) => write!(f, "shifted by {x:+} pixels across and {y:+} down"),
             Self::Corners(CellCorner::UpperLeft) => {
                 f.write_str("samples in the upper left corners, not in the centres (+ 0.5 forgotten)")

@@ -62,15 +62,49 @@ impl Guess {
 /// Finds what makes the picture of `subject` most like `other`, a picture of the same scene by another renderer. Draws
 /// the scene at the size of `other` some hundred times, at most 600, for as long as `budget` allows; no more once the picture is
 /// the other, byte by byte. `None` once `cancel` says so.
+///
+/// Where the other picture is transparent and ours is not, and that is most of what differs, that is a cause, and the others are
+/// looked for on a transparent background.
 pub fn guess(subject: &Subject<'_>, other: &Framebuffer, budget: Duration, cancel: &CancelToken) -> Option<Guess> {
     let trial = Trial { subject, other, cancel };
-    let mut search = Search::new(&trial, budget)?;
+    let clear = Cause::TransparentBackground;
+    if subject.settings.background.a >= 1.0 && other.pixels().iter().any(|pixel| pixel >> 24 < 255) {
+        let error = |causes: &[Cause]| Some(trial.error(&trial.draw(causes)?, &[]));
+        let before = error(&[])?;
+        // Many renderers have neither a background nor a margin.
+        let opaque = before.min(error(&[Cause::Filled])?);
+        let transparent = error(&[clear])?.min(error(&[clear, Cause::Filled])?);
+        if transparent as f64 <= MARGIN * opaque as f64 {
+            let settings = trial.settings(&[clear]);
+            let subject = Subject {
+                settings: &settings,
+                ..*subject
+            };
+            let mut guess = search(
+                &Trial {
+                    subject: &subject,
+                    other,
+                    cancel,
+                },
+                budget,
+            )?;
+            guess.causes.insert(0, clear);
+            guess.before = before;
+            return Some(guess);
+        }
+    }
+    search(&trial, budget)
+}
+
+/// Tries causes until one explains all, or time is up.
+fn search(trial: &Trial<'_>, budget: Duration) -> Option<Guess> {
+    let mut search = Search::new(trial, budget)?;
     search.run()?;
     let mut guess = search.guess();
     // Truncated bytes alone look like the course's rules, of which they are a part.
     let course = Cause::Rules(Rules::Course);
     if (guess.after > 0 || guess.causes.contains(&course)) && !search.stopped {
-        consider_truncation(&trial, &mut guess)?;
+        consider_truncation(trial, &mut guess)?;
     }
     Some(guess)
 }
@@ -455,6 +489,35 @@ mod tests {
             let guess =
                 guess(&subject, &other, Duration::from_mins(2), &CancelToken::default()).expect("not cancelled");
             assert_eq!((guess.causes.as_slice(), guess.after), (causes, 0), "{guess:?}");
+        }
+    }
+
+    #[test]
+    fn hypotheses_know_pictures_on_a_transparent_background() {
+        let scene = scene();
+        let settings = RenderSettings::default();
+        let view = View::Canvas.transform(scene.canvas, SIZE);
+        for (coverage, more) in [
+            (PixelCoverage::Sampled, None),
+            (PixelCoverage::Exact, Some(Cause::Coverage(PixelCoverage::Exact))),
+        ] {
+            let drawn = RenderSettings {
+                coverage,
+                background: Rgba::TRANSPARENT,
+                ..settings
+            };
+            let mut other = Framebuffer::new(SIZE[0], SIZE[1]);
+            render::draw(&scene, &view, &drawn, &mut other);
+            let subject = Subject {
+                scene: &scene,
+                view: &view,
+                settings: &settings,
+            };
+            let guess =
+                guess(&subject, &other, Duration::from_mins(2), &CancelToken::default()).expect("not cancelled");
+            let causes: Vec<Cause> = [Cause::TransparentBackground].into_iter().chain(more).collect();
+            assert_eq!((guess.causes.as_slice(), guess.after), (&*causes, 0), "{guess:?}");
+            assert!(guess.explained() > 0.999, "{guess:?}");
         }
     }
 

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
 use super::levels::compared;
+use crate::color::Rgba;
 use crate::geometry::{View, ViewTransform};
 use crate::post::PostProcess;
 use crate::raster::{Framebuffer, SampleRate};
@@ -50,6 +51,7 @@ impl<'a> Trial<'a> {
         for cause in causes {
             match *cause {
                 Cause::Filled => settings.outline = false,
+                Cause::TransparentBackground => settings.background = Rgba::TRANSPARENT,
                 Cause::Rules(rules) => settings.rules = rules,
                 Cause::SampleRate(rate) => settings.sample_rate = rate,
                 Cause::Resolve(space) => settings.resolve = space,

@@ -42,8 +42,11 @@ struct Report {
 struct SideReport {
     /// How many different colours the line's pixels have.
     shades: usize,
-    /// `null` where both ends of the line are alike.
+    /// `null` where the first and the last quarter of the line are alike.
     edge: Option<EdgeReport>,
+    /// Whether something changes between these.
+    #[serde(skip)]
+    changes: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -192,8 +195,12 @@ impl Report {
             1 => "1 pixel".to_owned(),
             count => format!("{count} pixels"),
         };
+        // The rest of the line lies outside; what is measured is of the part that does not.
+        let whole = a.abs_diff(c).max(b.abs_diff(d)).saturating_add(1);
+        let is_cut = u64::try_from(self.pixels.len()).is_ok_and(|count| count < whole);
+        let cut = if is_cut { " of it in the picture" } else { "" };
         let head = format!(
-            "{}: line from {a}, {b} to {c}, {d}, {count}, {} in levels of 255",
+            "{}: line from {a}, {b} to {c}, {d}, {count}{cut}, {} in levels of 255",
             plain::line(&self.scene),
             self.channel
         );
@@ -232,13 +239,19 @@ impl SideReport {
         Self {
             shades: profile.shades(),
             edge: profile.edge(channel).map(EdgeReport::new),
+            changes: profile.changes_within(channel),
         }
     }
 
     fn line(&self, name: &str) -> String {
         let start = format!("{name:<7}  {:>6}", self.shades);
         let Some(edge) = &self.edge else {
-            return format!("{start}  no edge: both ends of the line are alike");
+            let why = if self.changes {
+                "the first and the last quarter of the line are alike; let it begin and end farther from the edge"
+            } else {
+                "both ends of the line are alike"
+            };
+            return format!("{start}  no edge: {why}");
         };
         let start = format!("{start}  {:>6.1}  {:>6.1}", edge.before, edge.behind);
         if !edge.alone {

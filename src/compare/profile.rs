@@ -185,6 +185,16 @@ impl Profile {
         self.colors.iter().map(|pixel| channel.value(*pixel)).collect()
     }
 
+    /// Whether the values change between quarters that are alike, so that an edge may lie in one of these, or two between them.
+    pub fn changes_within(&self, channel: ProfileChannel) -> bool {
+        /// A change in levels of 255 that is seen.
+        const SEEN: f64 = 8.0;
+        let values = self.values(channel);
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        self.edge(channel).is_none() && most - least >= SEEN
+    }
+
     /// How many different colours they have on white paper.
     pub fn shades(&self) -> usize {
         let mut colors: Vec<[u8; 3]> = self.colors.iter().map(|pixel| over_white(*pixel)).collect();
@@ -193,7 +203,7 @@ impl Profile {
         colors.len()
     }
 
-    /// The edge that the line crosses; `None` where both its ends are alike.
+    /// The edge that the line crosses; `None` where its first and its last quarter are alike.
     pub fn edge(&self, channel: ProfileChannel) -> Option<Edge> {
         let values = self.values(channel);
         if values.len() < 2 {
@@ -283,6 +293,23 @@ mod tests {
 
     fn is(found: f64, expected: f64, what: &str) {
         assert!((found - expected).abs() < 1e-9, "{what}: {found}, not {expected}");
+    }
+
+    #[test]
+    fn edge_near_an_end_is_told_from_none() {
+        let mut grays = [200; 40];
+        assert!(!row(&grays).changes_within(ProfileChannel::Luma), "one grey");
+        grays[37..].fill(40);
+        let profile = row(&grays);
+        assert!(
+            profile.edge(ProfileChannel::Luma).is_none(),
+            "most of the last quarter is as the first"
+        );
+        assert!(profile.changes_within(ProfileChannel::Luma), "but not all of it");
+        assert!(
+            !row(&[50, 50, 250, 250]).changes_within(ProfileChannel::Luma),
+            "an edge is measured"
+        );
     }
 
     #[test]

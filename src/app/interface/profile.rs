@@ -270,15 +270,21 @@ fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
         });
         row(ui, widths, |ui| sign(ui, curve.side), cells);
     }
-    if let Some(note) = not_measured(curves, &edges) {
+    if let Some(note) = not_measured(curves, &edges, channel) {
         ui.label(RichText::new(note).small().color(ui.visuals().warn_fg_color));
     }
 }
 
 /// Why numbers are left out.
-fn not_measured(curves: &[ProfileCurve], edges: &[Option<Edge>]) -> Option<String> {
+fn not_measured(curves: &[ProfileCurve], edges: &[Option<Edge>], channel: ProfileChannel) -> Option<String> {
     if edges.iter().any(Option::is_none) {
-        return Some("No width, over or under where both ends of the line are alike.".to_owned());
+        let changes = curves.iter().any(|curve| curve.profile.changes_within(channel));
+        let why = if changes {
+            "No width, over or under where the first and the last quarter of the line are alike: let it begin and end farther from the edge."
+        } else {
+            "No width, over or under where both ends of the line are alike."
+        };
+        return Some(why.to_owned());
     }
     let more: Vec<(&str, &str)> = curves
         .iter()

@@ -49,14 +49,25 @@ impl Explanation {
             Some([r, g, b, a])
         };
         let true_color = draw(&settings.truth())?;
-        let other_color = draw(&RenderSettings {
-            pattern: SamplePattern::Sobol,
-            ..settings.truth()
-        })?;
+        // Exact areas may be nearer to what is right than any samples are: more sets of them tell how sure the truth is.
+        let others = [SamplePattern::Sobol, SamplePattern::Halton, SamplePattern::R2];
+        let others = if settings.coverage.is_exact() {
+            &others[..]
+        } else {
+            &others[..1]
+        };
+        let mut unsure = 0.0_f64;
+        for pattern in others {
+            let color = draw(&RenderSettings {
+                pattern: *pattern,
+                ..settings.truth()
+            })?;
+            unsure = unsure.max(distance(color, true_color));
+        }
         let mut truth = Truth {
             color: true_color,
             distance: distance(self.color, true_color),
-            unsure: distance(other_color, true_color),
+            unsure,
             cures: Vec::new(),
             causes: Causes::default(),
         };

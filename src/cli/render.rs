@@ -189,10 +189,12 @@ pub(super) fn name_for_png(output: &Path) -> Result<(), Failure> {
     {
         return Ok(());
     }
-    Err(Failure::input(format!(
-        "{}: pictures are written as PNG; give a name that ends in .png",
-        output.display()
-    )))
+    let cure = if output.is_dir() {
+        "this is a folder; give the name of a picture in it, which ends in .png"
+    } else {
+        "pictures are written as PNG; give a name that ends in .png"
+    };
+    Err(Failure::input(format!("{}: {cure}", output.display())))
 }
 
 /// Protects the picture that a scene and its settings come from.

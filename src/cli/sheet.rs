@@ -48,6 +48,7 @@ pub(super) fn check(request: &SheetRequest, output: Destination<'_>, guard: &Gua
 /// Draws every panel and puts them together; `output` is the file that the record names.
 pub(super) fn draw(options: &SheetOptions, output: &Path) -> Result<Sheet, Failure> {
     let request = request(options).map_err(Failure::Input)?;
+    request.check_size().map_err(Failure::Input)?;
     memory::ask_for(request.pixels())?;
     let scene = SceneSource::from_address(&options.scene);
     // Its status says whether the scene is at fault.

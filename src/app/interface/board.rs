@@ -264,7 +264,7 @@ fn controls(ui: &mut Ui, viewer: &Viewer, list_open: &mut bool, commands: &mut V
         if command_button(ui, "board-add", "Add A").clicked() {
             commands.push(Command::Board(BoardCommand::AddA));
         }
-        vary(ui, list_open, commands);
+        vary(ui, viewer, list_open, commands);
         together(ui, 166.0, "sort", |ui| {
             let sorts = BoardSort::ALL.map(|sort| (sort, sort_name(sort)));
             let sort = few(ui, ("Sort by", "board-sort"), board.sort(), &sorts);
@@ -384,8 +384,9 @@ fn few<T: Copy + PartialEq>(ui: &mut Ui, (name, id): (&str, &str), current: T, v
 
 /// A list of settings, of which one fills the board; `open` is whether it hung open before. It opens at its top: it has no value that
 /// is chosen, and an area would open where it was left.
-fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
+fn vary(ui: &mut Ui, viewer: &Viewer, open: &mut bool, commands: &mut Vec<Command>) {
     let was_open = *open;
+    let scene = viewer.scene_list().scene();
     let list = ComboBox::from_id_salt("vary on the board")
         .width(70.0)
         .selected_text("Vary \u{2026}")
@@ -396,12 +397,17 @@ fn vary(ui: &mut Ui, open: &mut bool, commands: &mut Vec<Command>) {
             ScrollArea::vertical().max_height(VARY_HEIGHT).show(ui, |ui| {
                 for (index, setting) in picture::all().enumerate() {
                     let label = setting.option.replace('-', " ");
-                    let line = ui.selectable_label(false, label);
+                    // Tiles that are all alike teach nothing.
+                    let why = setting.idle(viewer.settings(), scene);
+                    let line = ui.add_enabled(why.is_none(), Button::selectable(false, label));
+                    let line = line.on_disabled_hover_text(format!("No effect: {}", why.unwrap_or_default()));
                     if index == 0 && !was_open {
                         line.scroll_to_me_animation(Some(Align::TOP), ScrollAnimation::none());
                     }
                     if line.clicked() {
                         commands.push(Command::Board(BoardCommand::Vary(Axis::first(setting))));
+                        // Enter does not close it by itself.
+                        ui.close();
                     }
                 }
             });

@@ -159,7 +159,7 @@ fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
     if name == wanted || spec.id == wanted {
         return Some(0);
     }
-    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
+    if name.starts_with(wanted) || spec.id.starts_with(wanted) || spec.sought_as.contains(&wanted) {
         return Some(1);
     }
     if name.contains(wanted) || spec.id.contains(wanted) {
@@ -244,6 +244,7 @@ mod tests {
             ("bilinear", "Pixel sampling: bilinear"),
             ("halton", "Pattern: halton"),
             ("six tasks", "Lesson: six tasks"),
+            ("points", "Sample pattern by itself"),
             ("checker fan", "Scene study/08_checker_fan.svg"),
         ] {
             let found = names(text);

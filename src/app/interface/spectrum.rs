@@ -217,6 +217,8 @@ fn words(ui: &mut Ui, viewer: &Viewer, found: &SpectrumFound, reading: Option<&S
             (Some(0.0), SpectrumOf::Difference) => "The frame is the truth here: no error",
             (Some(_), SpectrumOf::Difference) => "All differs from the truth by the same: no waves",
             (Some(_), _) => "All is of one colour: no waves",
+            // Of what was to be seen a moment ago.
+            (None, _) if !viewer.spectrum().is_current() => "Computing \u{2026}",
             (None, _) => "Point at a frequency to see its wave",
         };
         // Texels have colours of their own.

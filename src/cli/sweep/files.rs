@@ -17,6 +17,13 @@ pub(super) fn chart_of(options: &SweepOptions) -> PathBuf {
 
 /// Says before minutes of work what would fail after it.
 pub(super) fn check_outputs(options: &SweepOptions, chart: &Path) -> Result<(), Failure> {
+    let is_stream = std::fs::metadata(&options.csv).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if options.plot.is_none() && is_stream {
+        return Err(Failure::input(format!(
+            "{}: no file, beside which a chart could lie; say with --plot where the chart goes",
+            options.csv.display()
+        )));
+    }
     name_for_png(chart)?;
     let files: Vec<&Path> = outputs(options, chart).map(|(path, _)| path).collect();
     for (number, file) in files.iter().enumerate() {

@@ -190,11 +190,11 @@ impl Opening<'_> {
 
     /// Closes or unpins one thing, the latest first; false when nothing is open.
     pub(in crate::viewer) fn close_latest(&mut self) -> bool {
-        if self.chrome.close_latest() || self.close_words() {
+        // The board lies over a scene's words.
+        if self.chrome.close_latest() || self.close_board() || self.close_words() {
             return true;
         }
-        if self.scene_list.give_up_reading() || self.profiling.escape() || self.close_board() || self.spectrum.escape()
-        {
+        if self.scene_list.give_up_reading() || self.profiling.escape() || self.spectrum.escape() {
             return true;
         }
         let mut context = ComparisonContext {

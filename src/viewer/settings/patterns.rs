@@ -135,8 +135,12 @@ pub fn of_file(path: &Path) -> Result<String, String> {
         .map_err(|problem| format!("{name}: {problem}"))?;
     let pattern = parse(&text, &name)?;
     if !is_free(pattern) {
+        // It was read a moment ago.
+        let table = DeTable::parse(&text).ok();
+        let at = table.and_then(|table| Some(table.get_ref().get("name")?.span().start));
+        let [line, column] = place(&text, at.unwrap_or(0));
         return Err(format!(
-            "{name}: `{}` is a pattern of the program's own, with other samples; take another name",
+            "{name}:{line}:{column}: `{}` is a pattern of the program's own, with other samples; take another name",
             pattern.name()
         ));
     }

@@ -238,6 +238,11 @@ fn sheet_at_fault_writes_nothing() {
         assert_eq!(names(folder.path()), before, "{more:?} leaves nothing");
     };
     refused(&["-o", "s.png", "--sample-rate", "1,5"], &["--sample-rate 5"]);
+    // Before the system is asked for memory.
+    refused(
+        &["-o", "s.png", "--sample-rate", "1,4", "--size", "16384x16384"],
+        &["the sheet would have 32768x16384 pixels", "a smaller --size"],
+    );
     refused(
         &["-o", "s.png", "--pattern", "grid,poisson"],
         &["poisson", "grid|rotated", "TOML file"],

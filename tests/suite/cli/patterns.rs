@@ -142,6 +142,10 @@ fn cli_pattern_files_at_fault_are_told_with_place_and_cure() {
         refused(document.as_bytes(), &["--pattern: p.toml", told]);
     }
     refused(
+        b"samples = [{ x = 0.25, y = 0.5 }]\nname = \"grid\"",
+        &["--pattern: p.toml:2:8", "another name"],
+    );
+    refused(
         b"name = \"\xff\xfe\"",
         &["--pattern: p.toml: is not text in UTF-8; save it in that encoding"],
     );

@@ -206,6 +206,8 @@ fn sweep_refuses_before_it_measures() {
         ),
         (vec!["a.svg", "--csv", "t.csv", "--no-such=1,2"], vec!["--no-such"]),
         (vec!["none.svg", "--csv", "t.csv"], vec!["none.svg"]),
+        // The chart would lie beside it.
+        (vec!["a.svg", "--csv", "/dev/null"], vec!["/dev/null", "--plot"]),
         (vec!["a.svg", "--csv", "t.csv", "--quality", "taste"], vec!["taste"]),
     ] {
         let output = sweep(folder.path(), &arguments).output().unwrap();

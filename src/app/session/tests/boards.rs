@@ -316,3 +316,18 @@ fn list_of_what_varies_opens_at_its_top() {
     let again = open(&mut session);
     assert!((again.y - first.y).abs() < 1.0, "{again}, not {first}");
 }
+
+#[test]
+fn escape_closes_the_board_before_the_words_below_it() {
+    let mut session = session(rings(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::About(Toggle::On)));
+    vary(&mut session, "sample-rate", "1,4");
+    assert!(session.viewer.board().is_open(), "the board is open");
+    key(&mut session, "Escape");
+    session.settle();
+    assert!(!session.viewer.board().is_open(), "the board is closed");
+    assert!(session.viewer.chrome().about(), "the words are there again");
+    key(&mut session, "Escape");
+    session.settle();
+    assert!(!session.viewer.chrome().about(), "and then they are closed");
+}

@@ -24,6 +24,7 @@ spec(
     "Shows the points of the sample pattern, what vertical and level edges see of them, how even they are, and their spectrum",
     Group::Sampling,
 )
+.sought_as(&["points", "discrepancy"])
 .more("Of the pinned pixel, where each has points of its own; the keys of pattern and sample rate work meanwhile")
 .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern))),
 spec(

@@ -114,17 +114,26 @@ impl SheetRequest {
         self.panels.iter().map(of_panel).sum::<u64>().saturating_mul(2)
     }
 
+    /// Says before anything is read or drawn that the sheet would be too large.
+    ///
+    /// # Errors
+    /// That, in one line.
+    pub fn check_size(&self) -> Result<(), String> {
+        let first = self.first().ok_or("a sheet without panels")?;
+        let layout = self.plan(first).layout().map(|_| ());
+        layout.map_err(|problem| format!("{}: {problem}", first.scene.address()))
+    }
+
     /// Draws every panel and puts them together; `output` is the file that the record names.
     ///
     /// # Errors
     /// One line when the sheet would be too large, when an inset has no room, and what `scenes` says.
     pub fn draw(&self, scenes: SceneReader<'_>, output: &Path) -> Result<Sheet, String> {
+        self.check_size()?;
         let first = self.first().ok_or("a sheet without panels")?;
         let mut plan = self.plan(first);
         let name = first.scene.address();
         let too_large = |problem| format!("{name}: {problem}");
-        // Asked before anything is read or drawn.
-        plan.layout().map_err(too_large)?;
         let panels = self.panels(scenes)?;
         let scene = panels.first().map(|panel| Arc::clone(&panel.scene));
         let scene = scene.ok_or("a sheet without panels")?;

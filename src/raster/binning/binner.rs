@@ -356,6 +356,10 @@ impl<'a> Binner<'a> {
             }
             return;
         }
+        // Most triangles of a chunk, where the rows of a single pixel are asked for.
+        if tile_rows.is_empty() {
+            return;
+        }
         let edges = TileRows::new(corners);
         for row in tile_rows {
             let in_tile = sides.painted(row, sides.height).intersection(self.frame.y);

@@ -23,10 +23,14 @@ impl Binner<'_> {
             return;
         }
         let ((left, right), (top, bottom)) = (sides.columns(pixels.x), sides.rows(pixels.y));
+        let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        if tile_rows.is_empty() {
+            return;
+        }
         let ys = corners.map(|corner| corner.y);
         let (highest, lowest) = (ys[0].min(ys[1]).min(ys[2]), ys[0].max(ys[1]).max(ys[2]));
         let edges = TileRows::new(corners);
-        for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
+        for row in tile_rows {
             let in_tile = sides.painted(row, sides.height).intersection(self.frame.y);
             let [first, last] = [in_tile.start, in_tile.end].map(|row| row << grid.bits());
             let bounds = edges.between(first.max(highest), last.min(lowest));

@@ -17,6 +17,9 @@ impl Explanation {
         let count = around.pixels.len();
         let plural = if count == 1 { "" } else { "s" };
         let samples = match self.resolve.samples {
+            _ if around.is_own_mean => {
+                "set aside here, for its weights add up to less than an eighth of what even ones do: the pixel is the mean of its own samples.".to_owned()
+            }
             _ if self.exact && count == 1 => "this pixel weighs 1, and no other weighs anything.".to_owned(),
             _ if self.exact => format!("{count} pixels weigh 1 together, each by its place around this one."),
             1 => "1 sample weighs 1, wherever it lies around the pixel's middle.".to_owned(),

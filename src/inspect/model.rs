@@ -118,6 +118,9 @@ pub struct Around {
     pub filter: &'static str,
     /// How far from the pixel's middle samples weigh anything, in pixels.
     pub radius: f64,
+    /// Whether what samples weigh by their places adds up to less than an eighth of what even weights do, so that the pixel is the
+    /// mean of its own samples instead.
+    pub is_own_mean: bool,
     /// The pixels of which anything is taken, row by row; this one is among them.
     pub pixels: Vec<Taken>,
 }

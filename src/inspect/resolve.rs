@@ -85,6 +85,7 @@ fn taken(around: &raster::Around, settings: &RenderSettings) -> Around {
     Around {
         filter: filter.filter().name(),
         radius: filter.radius(),
+        is_own_mean: around.is_own_mean,
         pixels: around.pixels.iter().map(of_pixel).collect(),
     }
 }

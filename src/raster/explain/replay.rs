@@ -48,6 +48,8 @@ pub struct Around {
     pub pixels: Vec<WeighedPixel>,
     /// All samples together, each times its weight.
     pub sum: WeightedSum,
+    /// Whether the filter's weights add up to too little, so that the pixel is the mean of its own samples instead.
+    pub is_own_mean: bool,
 }
 
 /// The samples of one pixel, and what they weigh in another.
@@ -230,6 +232,7 @@ impl DisplayList<'_> {
         let weighed = painters.per_sample.neighbourhood();
         let pixels = weighed.iter().flat_map(|weighed| &weighed.pixels);
         let sum = weighed.as_ref().map(|weighed| weighed.sum).unwrap_or_default();
+        let is_own_mean = weighed.as_ref().is_some_and(|weighed| weighed.is_own_mean);
         let around: Vec<WeighedPixel> = pixels
             .map(|(beside, samples)| WeighedPixel {
                 beside: *beside,
@@ -257,7 +260,11 @@ impl DisplayList<'_> {
                 .collect(),
             painted,
             pixel: resolved[0],
-            around: Some(Around { pixels: around, sum }),
+            around: Some(Around {
+                pixels: around,
+                sum,
+                is_own_mean,
+            }),
         }
     }
 

@@ -1,10 +1,11 @@
 //! What is given as the reason is the reason: small documents in which something else lies near, above, below or beside it.
 
 use rasterscope::inspect::{Detail, Explanation};
-use rasterscope::raster::{PixelCoverage, ResolveFilter, SampleRate, ShadingRate};
+use rasterscope::raster::{FilterRadius, PixelCoverage, ResolveFilter, SampleRate, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, NoResources, ReadOptions};
+use rasterscope::viewer::patterns;
 
 use crate::support::explaining::advised;
 
@@ -457,6 +458,29 @@ fn a_filter_that_takes_one_pixel_says_so() {
         "Filter tent, radius 1: this pixel weighs 1, and no other weighs anything."
     );
     assert!(!lines.join("\n").contains("Each pixel weighs"), "{lines:?}");
+}
+
+/// All samples of the pattern lie where this filter weighs less than nothing.
+#[test]
+fn a_filter_whose_weights_add_up_to_too_little_is_said_to_be_set_aside() {
+    let settings = |radius| RenderSettings {
+        resolve_filter: ResolveFilter::Lanczos3,
+        filter_radius: FilterRadius::new(radius),
+        pattern: patterns::named("msaa-8").expect("it comes with the program"),
+        ..at_rate(8)
+    };
+    let body = r#"<path d="M2 2 18 4 7 17z"/>"#;
+    let told = told_of(body, &settings(0.5), [7, 3]);
+    let lines = told.resolve_lines();
+    assert_eq!(
+        lines[0],
+        "Filter lanczos3, radius 0.5: set aside here, for its weights add up to less than an eighth of what even ones do: the pixel is \
+         the mean of its own samples."
+    );
+    assert!(told.resolve.around.expect("a wide filter").is_own_mean);
+    let told = told_of(body, &settings(3.0), [7, 3]);
+    let lines = told.resolve_lines();
+    assert!(!lines[0].contains("set aside"), "{lines:?}");
 }
 
 #[test]

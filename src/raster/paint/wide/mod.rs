@@ -89,6 +89,8 @@ pub(in crate::raster) struct WeighedPixels {
     pub(in crate::raster) pixels: Vec<([i32; 2], WeighedSamples)>,
     /// Of all of them.
     pub(in crate::raster) sum: WeightedSum,
+    /// Whether the filter's weights add up to too little, so that the pixel is the mean of its own samples.
+    pub(in crate::raster) is_own_mean: bool,
 }
 
 impl Sums {
@@ -245,7 +247,8 @@ impl WideResolve {
         let around = (-margin..=margin).flat_map(|below| (-margin..=margin).map(move |right| [right, below]));
         let mut pixels: Vec<_> = around.map(|beside| (beside, of_pixel(beside))).collect();
         let samples = pixels.iter().flat_map(|(_, samples)| samples);
-        if is_too_little(samples.map(|(weight, _)| weight).sum(), count) {
+        let is_own_mean = is_too_little(samples.map(|(weight, _)| weight).sum(), count);
+        if is_own_mean {
             pixels.retain(|(beside, _)| *beside == [0, 0]);
             for (weight, _) in pixels.iter_mut().flat_map(|(_, samples)| samples) {
                 *weight = 1;
@@ -256,6 +259,10 @@ impl WideResolve {
         for (weight, color) in pixels.iter().flat_map(|(_, samples)| samples) {
             sum.add(*weight, self.space.parts(*color));
         }
-        WeighedPixels { pixels, sum }
+        WeighedPixels {
+            pixels,
+            sum,
+            is_own_mean,
+        }
     }
 }

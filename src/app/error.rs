@@ -2,12 +2,17 @@
 
 use std::path::PathBuf;
 
+use crate::viewer::script::ScriptError;
+
 /// What ends a session early. Each message is one line that says what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     /// The script cannot be read or is at fault: the user's input (exit status 2).
     #[error("{0}")]
     Script(String),
+    /// Steps of a script made something go wrong, at least one: the user's input.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Steps(Vec<ScriptError>),
     /// A session without a window met a scene that cannot be read or a picture that cannot be saved: the user's input.
     #[error("{0}")]
     Input(String),
@@ -33,6 +38,6 @@ pub enum AppError {
 impl AppError {
     /// Whether the user's input is at fault rather than the system.
     pub fn is_input(&self) -> bool {
-        matches!(self, Self::Script(_) | Self::Input(_))
+        matches!(self, Self::Script(_) | Self::Steps(_) | Self::Input(_))
     }
 }

@@ -100,7 +100,7 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
         Viewer::new(viewer_options(options, window_size(options, scale), None, waker)).map_err(AppError::Threads)?;
     let mut session = Session::new(viewer, scale, Clock::Simulated(0.0));
     if let Some(NamedScript { script, name }) = script {
-        play(&script, &name, &mut session).map_err(|error| AppError::Script(error.to_string()))?;
+        play(&script, &name, &mut session).map_err(AppError::Steps)?;
         session.settle();
         return untroubled(&session).map(|()| None);
     }
@@ -124,7 +124,6 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
 /// Whether all went well so far: the scene could be read, screenshots could be saved. If not, the first thing that
 /// went wrong.
 fn untroubled(session: &Session) -> Result<(), AppError> {
-    session
-        .problem()
-        .map_or(Ok(()), |problem| Err(AppError::Input(problem)))
+    let first = session.problems().into_iter().next();
+    first.map_or(Ok(()), |problem| Err(AppError::Input(problem)))
 }

@@ -9,7 +9,7 @@ use crate::viewer::Restored;
 pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     use super::picture::set_threads;
     use super::{interrupt, memory};
-    use crate::app::{self, AppError, ScriptSource, ViewOptions};
+    use crate::app::{self, ScriptSource, ViewOptions};
     use crate::viewer::{Against, LessonSource, patterns, picture};
 
     let is_pattern = |path: &&std::path::PathBuf| patterns::is_pattern_file(path);
@@ -69,11 +69,26 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     };
     #[cfg(windows)]
     super::windows::leave_console_of_desktop();
-    app::run(view_options).map_err(|error| match error {
-        AppError::Ended => interrupt::ended(),
+    app::run(view_options).map_err(failure)
+}
+
+/// Why a session ended; each step of a script that went wrong has a line of its own.
+#[cfg(feature = "window")]
+fn failure(error: crate::app::AppError) -> Failure {
+    use crate::app::AppError;
+
+    match error {
+        AppError::Ended => super::interrupt::ended(),
+        AppError::Steps(mut wrong) => {
+            let last = wrong.pop().map_or(String::new(), |error| error.to_string());
+            for error in wrong {
+                super::failure::print_error(&error.to_string());
+            }
+            Failure::input(last)
+        }
         error if error.is_input() => Failure::input(error),
         error => Failure::other(error),
-    })
+    }
 }
 
 #[cfg(feature = "window")]

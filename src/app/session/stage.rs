@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{Clock, Session};
 use crate::viewer::script::{Stage, save_window};
-use crate::viewer::{Command, Key, KeyPress, MessageKind, Modifiers, PointerButton};
+use crate::viewer::{Command, Key, KeyPress, Modifiers, PointerButton};
 
 /// Rounds until a picture without a window counts as at rest.
 const MAX_ROUNDS: u32 = 50;
@@ -52,12 +52,10 @@ impl Stage for Session {
         self.outbox.quit
     }
 
-    fn problem(&self) -> Option<String> {
+    fn problems(&self) -> Vec<String> {
         let failure = self.viewer.scene_list().current().and_then(|entry| entry.failure());
-        let messages = self.viewer.chrome().messages();
-        let mut errors = messages.iter().filter(|message| message.kind == MessageKind::Error);
-        let problem = failure.or_else(|| errors.next().map(|message| message.text.as_str()));
-        problem.map(str::to_owned)
+        let errors = self.viewer.chrome().errors().iter().map(String::as_str);
+        failure.into_iter().chain(errors).map(str::to_owned).collect()
     }
 
     fn key(&mut self, press: KeyPress) {

@@ -4,6 +4,8 @@ use crate::plain;
 
 /// Messages kept; older ones go.
 const MOST: usize = 6;
+/// Errors remembered after they left the screen; later ones are not.
+const MOST_ERRORS: usize = 64;
 
 /// What is said where the explanation that was asked for has no room.
 pub const NO_ROOM: &str = "no room here for the explanation of the pixel: make the window wider";
@@ -39,6 +41,8 @@ pub enum MessageKind {
 pub(in crate::viewer) struct Messages {
     list: Vec<Message>,
     next_id: u64,
+    /// What went wrong and was not mended since, oldest first, whether it still stands on the screen or not.
+    errors: Vec<String>,
 }
 
 /// Said to whoever names the `what` of this index, from 0, where `owner` has only so many, such as "the list".
@@ -52,12 +56,20 @@ impl Messages {
         &self.list
     }
 
+    /// What went wrong so far and was not mended since, oldest first: also what left the screen, which a script may not notice.
+    pub(in crate::viewer) fn errors(&self) -> &[String] {
+        &self.errors
+    }
+
     /// Adds a message; one with the same text moves to the end instead of standing there twice.
     pub(in crate::viewer) fn add(&mut self, kind: MessageKind, text: String) {
         let text = plain::into_lines(text);
         self.list.retain(|message| message.text != text);
         if self.list.len() == MOST {
             self.list.remove(0);
+        }
+        if kind == MessageKind::Error && self.errors.len() < MOST_ERRORS && !self.errors.contains(&text) {
+            self.errors.push(text.clone());
         }
         let id = self.next_id;
         self.next_id += 1;
@@ -86,11 +98,13 @@ impl Messages {
         let of_file = |text: &str| text.strip_prefix(&*file).is_some_and(|rest| rest.starts_with(':'));
         self.list
             .retain(|message| message.kind != MessageKind::Error || !of_file(&message.text));
+        self.errors.retain(|text| !of_file(text));
     }
 
     /// Drops what is no longer so: messages that begin like this.
     pub(in crate::viewer) fn retract(&mut self, beginning: &str) {
         self.list.retain(|message| !message.text.starts_with(beginning));
+        self.errors.retain(|text| !text.starts_with(beginning));
     }
 
     pub(in crate::viewer) fn dismiss(&mut self, id: u64) {
@@ -101,6 +115,23 @@ impl Messages {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn errors_outlast_the_screen_until_they_are_mended() {
+        let mut messages = Messages::default();
+        messages.error("a.svg: broken".to_owned());
+        let first = messages.all()[0].id;
+        messages.dismiss(first);
+        for i in 0..2 * MOST_ERRORS {
+            messages.error(format!("{i}.svg: broken"));
+        }
+        assert_eq!(messages.errors().len(), MOST_ERRORS);
+        assert_eq!(messages.errors()[0], "a.svg: broken", "it left the screen first");
+        messages.forget_problems_of("a.svg");
+        assert_eq!(messages.errors()[0], "0.svg: broken");
+        messages.retract("0.svg");
+        assert_eq!(messages.errors()[0], "1.svg: broken");
+    }
 
     #[test]
     fn messages_are_few_and_different() {

@@ -143,6 +143,11 @@ impl Chrome {
         self.messages.all()
     }
 
+    /// What went wrong so far and was not mended since, oldest first, whether it is still among the messages or not.
+    pub fn errors(&self) -> &[String] {
+        self.messages.errors()
+    }
+
     /// Closes one thing that covers the picture, the latest first; false when nothing does.
     pub(in crate::viewer) fn close_latest(&mut self) -> bool {
         self.dialog.take().is_some() || std::mem::take(&mut self.start_card) || std::mem::take(&mut self.hidden)

@@ -31,9 +31,10 @@ pub trait Stage {
     /// Whether the program was told to end: later steps cannot be played.
     fn has_quit(&self) -> bool;
 
-    /// What went wrong and is still told: one line with the cure. Steps go on, so that a script can take a picture of it.
-    fn problem(&self) -> Option<String> {
-        None
+    /// What went wrong and was not mended since, each one line with the cure, oldest first. Steps go on, so that a script can take
+    /// a picture of it.
+    fn problems(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// Presses and releases a key.
@@ -82,26 +83,32 @@ pub trait Stage {
 /// Plays all steps, each after the picture of the one before is finished.
 ///
 /// # Errors
-/// At the first step that cannot be performed, or that comes after the end of the program; at the end with what a step made go
-/// wrong, where the stage still tells it.
-pub fn play(script: &Script, name: &str, stage: &mut dyn Stage) -> Result<(), ScriptError> {
+/// At the first step that cannot be performed, or that comes after the end of the program; and with every step that made something
+/// go wrong that no later one mended. They are in the order of the steps.
+pub fn play(script: &Script, name: &str, stage: &mut dyn Stage) -> Result<(), Vec<ScriptError>> {
     stage.settle();
-    let mut told = stage.problem();
-    let mut troubled = None;
+    let mut told = stage.problems();
+    let mut wrong = Vec::new();
     for step in &script.steps {
         if stage.has_quit() {
-            let unplayed = "it is not played, for a step before it ended the program; let that one be the last";
-            return Err(troubled.unwrap_or_else(|| step.error(name, unplayed.to_owned())));
+            if wrong.is_empty() {
+                let unplayed = "it is not played, for a step before it ended the program; let that one be the last";
+                wrong.push(step.error(name, unplayed.to_owned()));
+            }
+            return Err(wrong);
         }
-        perform(&step.step, stage).map_err(|message| step.error(name, message))?;
+        if let Err(message) = perform(&step.step, stage) {
+            wrong.push(step.error(name, message));
+            return Err(wrong);
+        }
         stage.settle();
-        let problem = stage.problem();
-        if problem != told {
-            troubled = problem.clone().map(|problem| step.error(name, problem));
-            told = problem;
-        }
+        let problems = stage.problems();
+        wrong.retain(|error: &ScriptError| problems.contains(&error.message));
+        let new = problems.iter().filter(|problem| !told.contains(problem));
+        wrong.extend(new.map(|problem| step.error(name, problem.clone())));
+        told = problems;
     }
-    troubled.map_or(Ok(()), Err)
+    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
 /// Performs one step. A window that cannot wait calls this for one step after the other, each time the picture is

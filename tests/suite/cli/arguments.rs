@@ -307,6 +307,28 @@ fn cli_view_answers_mistakes_too() {
     );
 }
 
+/// Also where the message about it has left the screen, or others pushed it out.
+#[cfg(feature = "window")]
+#[test]
+fn cli_view_names_every_step_that_went_wrong() {
+    let folder = folder_with(&[("a.svg", SCENE), ("old.png", "kept")]);
+    let steps = "save-as old.png; wait 60000; theme light; save-as no/1.png; save-as new.png; scene 9; theme dark";
+    let run = run(folder.path(), &["a.svg", "--headless", "--do", steps]);
+    let told = String::from_utf8(run.stderr).expect("text");
+    assert_eq!(run.status.code(), Some(2), "{told}");
+    assert_eq!(
+        told.lines()
+            .filter(|line| line.starts_with("rasterscope: --do:1:"))
+            .count(),
+        3,
+        "{told}"
+    );
+    assert!(told.contains("--do:1:1: old.png: this file exists"), "{told}");
+    assert!(told.contains("--do:1:43: no/1.png: cannot save here"), "{told}");
+    assert!(told.contains("--do:1:78: "), "{told}");
+    assert!(folder.path().join("new.png").exists(), "what could be done was");
+}
+
 #[test]
 fn cli_reports_what_it_skips() {
     let text = SCENE.replace("<polygon", "\n  <foreignObject width='3' height='3'/><polygon");

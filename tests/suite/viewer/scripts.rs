@@ -26,7 +26,7 @@ fn script_plays_like_a_hand() {
     );
     let script = Script::parse(&text, "session").unwrap();
     let mut stage = ViewerStage::new(&mut session.viewer);
-    let late = play(&script, "session", &mut stage).unwrap_err().to_string();
+    let late = play(&script, "session", &mut stage).unwrap_err()[0].to_string();
     assert!(
         late.starts_with("session:9:9: it is not played"),
         "after the end: {late}"
@@ -74,7 +74,10 @@ fn script_failure_names_its_place() {
     let mut session = Session::open(&[TRIANGLES], [64, 48]);
     let script = Script::parse("key =\n  shot no/such/folder/x.png", "do").unwrap();
     let mut stage = ViewerStage::new(&mut session.viewer);
-    let error = play(&script, "do", &mut stage).unwrap_err();
+    let errors = play(&script, "do", &mut stage).unwrap_err();
+    let [error] = errors.as_slice() else {
+        panic!("one step failed: {errors:?}");
+    };
     assert!(
         error
             .to_string()

@@ -9,7 +9,8 @@
 //!   +-------+ +-------+          +-+
 //! ```
 
-use super::callout::{Scale, draw_plate, leaders};
+use super::callout::{Scale, draw_plate};
+use super::leaders::leaders;
 use super::lines::{draw_frame, draw_line};
 use super::paint::outer;
 use super::{Inset, PixelRect, TextBlock};
@@ -70,8 +71,16 @@ pub fn add_magnifiers(picture: &mut Framebuffer, magnifiers: &[Magnifier<'_>]) -
         .zip(&laid_out)
         .filter_map(|(region, (_, place))| Some((region?, *place)));
     let placed: Vec<(PixelRect, PixelRect)> = placed.collect();
+    // Those of A and B may magnify the same pixels, side by side: no line passes between both.
+    let mut connected: Vec<(PixelRect, PixelRect)> = Vec::new();
     for (region, place) in &placed {
-        for [from, to] in leaders(&outer(region), place) {
+        match connected.iter_mut().find(|(known, _)| known == region) {
+            Some((_, around)) => *around = around.union(place),
+            None => connected.push((*region, *place)),
+        }
+    }
+    for (region, around) in &connected {
+        for [from, to] in leaders(&outer(region), around) {
             draw_line(picture, from, to, scale.stroke());
         }
     }

@@ -6,6 +6,7 @@ mod axis;
 mod beside;
 mod callout;
 mod inset;
+mod leaders;
 mod legend;
 mod lines;
 mod magnifiers;
@@ -43,7 +44,7 @@ pub use pin_ring::PinRing;
 pub use placement::{Corner, corners, place};
 #[cfg(feature = "cli")]
 pub use plot::{Plot, PlotSeries, draw_plot};
-pub use record::{Record, RecordError, RecordedFile};
+pub use record::{Record, RecordError, RecordedB, RecordedFile};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};

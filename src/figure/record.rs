@@ -64,6 +64,22 @@ pub struct Record {
     pub size: [u32; 2],
     /// The settings that differ from their defaults, by their names on the command line.
     pub settings: BTreeMap<String, String>,
+    /// What shares the picture with what the command line makes, or fills it instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compared: Option<RecordedB>,
+}
+
+/// The other of two pictures that were compared.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RecordedB {
+    /// What it is, as `view --against` takes it: settings that differ from those of the command line, `truth`, or a picture's path.
+    pub against: String,
+    /// How both share the picture, as scripts say it: `wipe 0.25`, or `difference signed; gain 4`.
+    pub arrangement: String,
+    /// The file, where it comes from outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub picture: Option<RecordedFile>,
 }
 
 /// A file that a picture was made from.

@@ -57,6 +57,19 @@ impl PixelRect {
             height: length(y, self.bottom().min(other.bottom())),
         }
     }
+
+    /// The smallest rectangle that holds both.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+        let length = |from: i64, to: i64| u32::try_from(to.saturating_sub(from)).unwrap_or(0);
+        Self {
+            x,
+            y,
+            width: length(x, self.right().max(other.right())),
+            height: length(y, self.bottom().max(other.bottom())),
+        }
+    }
 }
 
 #[cfg(test)]

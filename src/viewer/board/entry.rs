@@ -106,6 +106,13 @@ impl BoardEntry {
         changed.map(|setting| (setting.option, setting.value(&own))).collect()
     }
 
+    /// The same in one line, as [`BoardEntry::with`] of `other` takes it; empty where nothing differs.
+    pub fn change_text(self, other: Self) -> String {
+        let changes = self.changes(other).into_iter();
+        let changes: Vec<String> = changes.map(|(name, value)| format!("{name} {value}")).collect();
+        changes.join(", ")
+    }
+
     /// Whether every setting has one value in both; the outline follows the view.
     pub fn is_like(self, other: Self) -> bool {
         self.changes(other).is_empty()

@@ -178,13 +178,8 @@ impl BoardCommandLine {
             dialect: self.own.dialect,
         };
         for entry in &self.entries {
-            let changes = entry.changes(own).into_iter();
-            let changes: Vec<String> = changes.map(|(name, value)| format!("{name} {value}")).collect();
-            let text = if changes.is_empty() {
-                AS_A.to_owned()
-            } else {
-                changes.join(", ")
-            };
+            let changes = entry.change_text(own);
+            let text = if changes.is_empty() { AS_A.to_owned() } else { changes };
             words.extend(["--with".to_owned(), text]);
         }
         let Region { x, y, width, height } = self.region;

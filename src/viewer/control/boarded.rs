@@ -236,6 +236,7 @@ impl<'a> Boarded<'a> {
             spec: line.own,
             scene,
             differs: Some(BoardCommandLine::DIFFERS.to_owned()),
+            compared: None,
         });
         Ok(Work::Picture {
             shot: Shot::Ready(picture),

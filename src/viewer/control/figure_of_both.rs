@@ -1,16 +1,17 @@
-//! A and B in one figure, as it is saved: what they share of the window, with magnifiers, tags and legends.
+//! A and B in one figure, as it is saved: all of the picture that they share, or what of each lies in its half of the window, with
+//! magnifiers, tags and legends.
 
 use crate::figure::{Magnifier, PixelRect, add_legends, add_magnifiers, add_tags, magnified, tag_unit};
 use crate::raster::{Framebuffer, Region};
 use crate::viewer::control::recipes::Recipes;
-use crate::viewer::frames::composite::union;
 use crate::viewer::inspector::PlacedInset;
 use crate::viewer::view::layout;
 
 impl Recipes<'_> {
-    /// What A and B share, with its tags and legends, and with the magnifiers where the window has them. What panels cover is cut off.
+    /// What A and B share, with its tags and legends, and with the magnifiers where the window has them. Side by side it is what the
+    /// halves of the window show; else it is whole, though a picture from outside may reach beyond the window.
     pub(in crate::viewer) fn picture_of_both(&self) -> Framebuffer {
-        let composite = self.both.composite();
+        let composite = self.both.composite().whole();
         let placed = self.insets().map(|(_, placed)| placed.rect);
         let bounds = composite.bounds();
         // Magnifiers are in window pixels.
@@ -20,7 +21,7 @@ impl Recipes<'_> {
             1
         };
         // They may lie beside a picture from outside.
-        let area = placed.fold(bounds, |area, inset| union(&area, &on_screen(&inset, zoom)));
+        let area = placed.fold(bounds, |area, inset| area.union(&on_screen(&inset, zoom)));
         let mut picture = magnified(&composite.picture_of(&area), zoom);
         let mut taken = self.draw_magnifiers(&mut picture, &layout::magnified(&area, zoom));
         let unit = tag_unit([picture.width(), picture.height()]);

@@ -3,14 +3,16 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::compare::Gain;
 use crate::figure::{Guard, InsetPlace, InsetSpec, Record};
 use crate::render::Visualisation;
 use crate::scene::Scene;
-use crate::viewer::ab::other::Other;
+use crate::viewer::ab::other::{Arrangement, Other};
 use crate::viewer::ab::sides::Filling;
+use crate::viewer::board::entry::BoardEntry;
 use crate::viewer::control::both::Both;
 use crate::viewer::control::pointing::Pointing;
-use crate::viewer::export::saver::{Recipe, Shot};
+use crate::viewer::export::saver::{Recipe, RecipeOfB, Shot};
 use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
 use crate::viewer::frames::frame::{Frame, Picture};
 use crate::viewer::settings::Settings;
@@ -113,6 +115,7 @@ impl Recipes<'_> {
             scene: Arc::clone(self.shown_scene()?),
             command: None,
             differs: Some(differs.to_owned()),
+            compared: self.compared(),
         })
     }
 
@@ -143,21 +146,82 @@ impl Recipes<'_> {
             .shown_scene()
             .is_some_and(|scene| Arc::ptr_eq(scene, &picture.scene));
         let seen_from_there = spec.view.transform(picture.scene.canvas, picture.size) == picture.view;
-        let differs = if !drawn_of_now || !seen_from_there {
-            Some("the view moved on while this picture was saved; the command line draws where it went")
-        } else {
-            match filling {
-                Filling::A | Filling::B => None,
-                Filling::Outside => Some("this picture is B, which comes from outside; the command line draws A alone"),
-                Filling::Shared => Some("A and B share this picture; the command line draws A alone"),
+        let compared = self.compared();
+        let differs = match &compared {
+            _ if !drawn_of_now || !seen_from_there => {
+                Some("the view moved on while this picture was saved; the command line draws where it went".to_owned())
             }
+            Some(RecipeOfB { against, .. }) if filling == Filling::Outside => Some(format!(
+                "this picture is B, {against}, which comes from outside; the command line draws A alone"
+            )),
+            Some(RecipeOfB {
+                against, arrangement, ..
+            }) => Some(format!(
+                "A and B share this picture ({arrangement}; B: {against}); the command line draws A alone"
+            )),
+            // B is still to come.
+            None if self.draws_a_alone() => {
+                Some("A and B share this picture; the command line draws A alone".to_owned())
+            }
+            None => None,
         };
         Some(Recipe {
             spec,
             scene: Arc::clone(&picture.scene),
             command: None,
-            differs: differs.map(str::to_owned),
+            differs,
+            compared,
         })
+    }
+
+    /// B, where a picture shows it and no command line of one picture draws that.
+    fn compared(&self) -> Option<RecipeOfB> {
+        let ab = self.both.ab;
+        let other = ab.other().filter(|_| self.draws_a_alone())?;
+        let against = match other {
+            Other::Settings { render, dialect } => {
+                let (render, dialect) = (*render, *dialect);
+                let changes = BoardEntry { render, dialect }.change_text(BoardEntry::of(self.both.settings));
+                if changes.is_empty() {
+                    "settings".to_owned()
+                } else {
+                    changes
+                }
+            }
+            Other::Truth(None) => "truth".to_owned(),
+            Other::Truth(Some(space)) => format!("truth {}", space.name()),
+            Other::Picture(picture) => picture.path.display().to_string(),
+        };
+        let style = ab.difference_style();
+        let shared = match (ab.arrangement(), style.gain) {
+            (Arrangement::Wipe, _) => format!("wipe {}", self.part_of_a()),
+            (Arrangement::Difference, Gain::Normalize) => format!("difference {}; normalize on", style.measure.name()),
+            (Arrangement::Difference, Gain::Factor(gain)) => {
+                format!("difference {}; gain {gain}", style.measure.name())
+            }
+            (arrangement, _) => format!("arrange {}", arrangement.name()),
+        };
+        let arrangement = if ab.is_swapped() {
+            format!("swap; {shared}")
+        } else {
+            shared
+        };
+        let picture = match other {
+            Other::Picture(picture) => Some(picture.path.clone()),
+            Other::Settings { .. } | Other::Truth(_) => None,
+        };
+        Some(RecipeOfB {
+            against,
+            arrangement,
+            picture,
+        })
+    }
+
+    /// How much of the width of both is A's in a wipe: `0.0..=1.0`, with four decimals.
+    fn part_of_a(&self) -> f64 {
+        let width = self.both.layout.frame_size()[0].max(1);
+        let column = self.both.ab.wipe_column(width, &self.both.layout);
+        (f64::from(column) / f64::from(width) * 1e4).round() / 1e4
     }
 
     /// What a screenshot of this frame shows: where it fills the window, what its command line draws and nothing else.

@@ -9,14 +9,14 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use crate::figure::{InsetSpec, Record, add_furniture, encode_png, write_new};
+use crate::figure::{InsetSpec, Record, RecordedB, add_furniture, encode_png, write_new};
 use crate::raster::Framebuffer;
 use crate::render::Legend;
 use crate::scene::Scene;
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::export::naming::{NameTemplate, names_to_try};
 use crate::viewer::export::sheet::saving::SheetJob;
-use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand};
+use crate::viewer::export::spec::{PictureSpec, RecipeOfCommand, input_file};
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
@@ -58,6 +58,9 @@ pub(in crate::viewer) enum Work {
     Sheet(Box<SheetJob>),
 }
 
+/// Said until a sheet is saved, whose panels may take seconds to draw.
+pub(in crate::viewer) const SAVING_SHEET: &str = "drawing the sheet that is saved";
+
 /// How a picture was made; its record names the file, whose name is not known before it is written.
 #[derive(Clone, Debug)]
 pub(in crate::viewer) struct Recipe {
@@ -67,6 +70,19 @@ pub(in crate::viewer) struct Recipe {
     pub(in crate::viewer) differs: Option<String>,
     /// The command that makes it, where that is not `render`.
     pub(in crate::viewer) command: Option<RecipeOfCommand>,
+    /// B, where the picture shows more than `spec` makes.
+    pub(in crate::viewer) compared: Option<RecipeOfB>,
+}
+
+/// B of a picture that A shares with it, or that it fills though no command line makes it.
+#[derive(Clone, Debug)]
+pub(in crate::viewer) struct RecipeOfB {
+    /// What it is, as `view --against` takes it.
+    pub(in crate::viewer) against: String,
+    /// How both share the picture, as scripts say it.
+    pub(in crate::viewer) arrangement: String,
+    /// The file of a picture from outside.
+    pub(in crate::viewer) picture: Option<PathBuf>,
 }
 
 impl Recipe {
@@ -74,12 +90,23 @@ impl Recipe {
     pub(in crate::viewer) fn record(&self, output: &Path) -> Record {
         let mut record = Record {
             differs: self.differs.clone(),
+            compared: self.compared.as_ref().map(|compared| compared.record(output)),
             ..self.spec.record(&self.scene, output)
         };
         if let Some(command) = &self.command {
             command.put_into(&mut record, &self.spec, output);
         }
         record
+    }
+}
+
+impl RecipeOfB {
+    fn record(&self, output: &Path) -> RecordedB {
+        RecordedB {
+            against: self.against.clone(),
+            arrangement: self.arrangement.clone(),
+            picture: self.picture.as_ref().map(|path| input_file(path, output)),
+        }
     }
 }
 
@@ -143,6 +170,9 @@ impl Saver {
     /// Takes in what became of a picture, and tells the user.
     pub(in crate::viewer) fn take_in(&mut self, Saved(saved): Saved, messages: &mut Messages) {
         self.running = self.running.saturating_sub(1);
+        if self.running == 0 {
+            messages.retract(SAVING_SHEET);
+        }
         match saved {
             Ok((path, [width, height])) => {
                 let (name, folder) = (path.file_name().unwrap_or_default(), folder_of(&path));

@@ -80,25 +80,31 @@ impl<'a> Composite<'a> {
 
     /// Each pane with what it shows and where that is to be seen on the screen.
     fn parts(&self) -> impl Iterator<Item = (&Pane, &Content<'a>, PixelRect)> {
-        self.panes.iter().map(|(pane, content)| {
-            let frame = content.frame();
-            let place = PixelRect {
-                x: pane.corner[0],
-                y: pane.corner[1],
-                width: frame.width(),
-                height: frame.height(),
-            };
-            (pane, content, place.intersection(&pane.area))
-        })
+        self.panes
+            .iter()
+            .map(|(pane, content)| (pane, content, place_of(pane, content).intersection(&pane.area)))
+    }
+
+    /// As it is, but that the one pane which is all there is shows its whole frame, beyond the screen, too.
+    pub(in crate::viewer) fn whole(mut self) -> Self {
+        if let [(pane, content)] = self.panes.as_mut_slice() {
+            pane.area = place_of(pane, content);
+        }
+        self
     }
 
     /// Writes some columns of a row of the screen; `out` has as many pixels.
     pub(in crate::viewer) fn row(&self, y: usize, columns: Range<usize>, out: &mut [u32]) {
+        self.line([signed(columns.start), signed(y)], out);
+    }
+
+    /// Writes the pixels of a row of the screen that begin at a column and row, which may lie beyond the screen.
+    fn line(&self, [x, y]: [i64; 2], out: &mut [u32]) {
         out.fill(BEYOND);
         let wanted = PixelRect {
-            x: signed(columns.start),
-            y: signed(y),
-            width: u32::try_from(columns.len()).unwrap_or(u32::MAX),
+            x,
+            y,
+            width: u32::try_from(out.len()).unwrap_or(u32::MAX),
             height: 1,
         };
         for (pane, content, seen) in self.parts() {
@@ -119,30 +125,28 @@ impl<'a> Composite<'a> {
     /// What of the screen the panes fill.
     pub(in crate::viewer) fn bounds(&self) -> PixelRect {
         let places = self.parts().map(|(_, _, seen)| seen);
-        places.reduce(|one, other| union(&one, &other)).unwrap_or_default()
+        places.reduce(|one, other| one.union(&other)).unwrap_or_default()
     }
 
     /// A part of the screen as a picture.
     pub(in crate::viewer) fn picture_of(&self, bounds: &PixelRect) -> Framebuffer {
         let mut picture = Framebuffer::new(bounds.width, bounds.height);
-        let columns = unsigned(bounds.x)..unsigned(bounds.right());
         let rows = picture.pixels_mut().chunks_exact_mut((bounds.width as usize).max(1));
-        for (y, row) in (unsigned(bounds.y)..).zip(rows) {
-            self.row(y, columns.clone(), row);
+        for (y, row) in (bounds.y..).zip(rows) {
+            self.line([bounds.x, y], row);
         }
         picture
     }
 }
 
-/// The smallest rectangle that holds both.
-pub(in crate::viewer) fn union(one: &PixelRect, other: &PixelRect) -> PixelRect {
-    let (x, y) = (one.x.min(other.x), one.y.min(other.y));
-    let length = |from: i64, to: i64| u32::try_from(to - from).unwrap_or(0);
+/// Where the frames of a pane lie on the screen, and beyond it.
+fn place_of(pane: &Pane, content: &Content<'_>) -> PixelRect {
+    let frame = content.frame();
     PixelRect {
-        x,
-        y,
-        width: length(x, one.right().max(other.right())),
-        height: length(y, one.bottom().max(other.bottom())),
+        x: pane.corner[0],
+        y: pane.corner[1],
+        width: frame.width(),
+        height: frame.height(),
     }
 }
 
@@ -206,6 +210,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn composite_of_one_pane_is_whole_beyond_the_screen() {
+        let only = frame(9, 7, 1);
+        let cut = Composite::new(vec![(pane([0, 0], [6, 5], [-2, -1]), Content::One(&only))]);
+        assert_eq!(cut.bounds(), PixelRect::of_size([6, 5]));
+        let whole = cut.whole();
+        assert_eq!(whole.picture_of(&whole.bounds()).pixels(), only.pixels());
     }
 
     #[test]

@@ -56,9 +56,29 @@ fn screenshot_tells_how_it_was_made() {
         "the command line of the moment"
     );
     session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
-    session.keys(&["w", "s"]);
-    let both = told(&session, 1).differs.unwrap();
-    assert!(both.contains("A and B share this picture"), "{both}");
+    assert_eq!(first.compared, None);
+    session.keys(&["=", "w", "s"]);
+    let both = told(&session, 1);
+    let (differs, b) = (both.differs.unwrap(), both.compared.unwrap());
+    assert!(
+        differs.contains("A and B share this picture (wipe 0.5; B: sample-rate 4)"),
+        "{differs}"
+    );
+    assert_eq!(
+        (&*b.against, &*b.arrangement, b.picture),
+        ("sample-rate 4", "wipe 0.5", None)
+    );
+    let theirs = session.folder.path().join("theirs.png");
+    std::fs::copy(&session.pictures()[0], &theirs).unwrap();
+    session.run(Command::Ab(AbCommand::Compare(Against::File(theirs.clone()))));
+    session.keys(&["d", "s"]);
+    let b = told(&session, 2).compared.expect("a picture from outside");
+    assert_eq!(
+        (b.against, &*b.arrangement),
+        (theirs.display().to_string(), "difference absolute; gain 1")
+    );
+    let file = b.picture.expect("its file");
+    assert_eq!(file.sha256.len(), 64, "{file:?}");
 }
 
 #[test]

@@ -384,3 +384,36 @@ fn comparison_by_a_script() {
         "where they differ most"
     );
 }
+
+#[test]
+fn a_picture_that_reaches_beyond_the_window_is_saved_whole() {
+    let mut session = Session::open(&[TRIANGLES], WINDOW);
+    let size = WINDOW.map(|side| side + 37);
+    let (path, expected) = picture_of_rate_four(&session, size);
+    for (arrangement, half) in [("wipe 0", false), ("arrange difference", false), ("side", true)] {
+        let saved = session.folder.path().join(format!("{arrangement}.png"));
+        let text = format!(
+            "against \"{}\"; {arrangement}; save-as \"{}\"",
+            path.display(),
+            saved.display()
+        );
+        let script = Script::parse(&text, "s").unwrap();
+        play(&script, "s", &mut ViewerStage::new(&mut session.viewer)).unwrap();
+        let picture = image::open(&saved).unwrap().into_rgba8();
+        if half {
+            assert!(
+                picture.width() <= WINDOW[0] && picture.height() <= WINDOW[1],
+                "halves of the window: {:?}",
+                picture.dimensions()
+            );
+            continue;
+        }
+        assert_eq!(<[u32; 2]>::from(picture.dimensions()), size, "{arrangement}");
+        if arrangement == "wipe 0" {
+            // Tags lie at the top.
+            let below = (size[1] / 2..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+            let differing = below.filter(|[x, y]| Some(picture.get_pixel(*x, *y).0) != expected.rgba(*x, *y));
+            assert_eq!(differing.count(), 0, "all of B, where it is");
+        }
+    }
+}

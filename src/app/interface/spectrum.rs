@@ -196,9 +196,12 @@ const NO_PART: &str = "That of a texture is of a whole mip level, or of 512 x 51
 /// The name of a part where panels leave this much of the frame free, which may be all of it.
 fn words_of(part: SpectrumPart, (free, is_all): (Region, bool)) -> &'static str {
     match part {
-        SpectrumPart::Whole if SpectrumAnalysis::middle_of(free) != free => "frame's middle",
-        SpectrumPart::Whole if is_all => "whole frame",
-        SpectrumPart::Whole => "free picture",
+        SpectrumPart::Whole => match (SpectrumAnalysis::middle_of(free) == free, is_all) {
+            (true, true) => "whole frame",
+            (true, false) => "free picture",
+            (false, true) => "frame's middle",
+            (false, false) => "free middle",
+        },
         SpectrumPart::Pin => "around the pin",
     }
 }

@@ -13,6 +13,9 @@ use crate::viewer::view::panes::Moved;
 /// How what is said of a B of A's settings begins. Whoever does one of the things that it names has read it.
 pub(in crate::viewer) const KEPT: &str = "B keeps these settings";
 
+/// How what is said begins where A changed and B is all there is to be seen.
+pub(in crate::viewer) const UNSEEN: &str = "A changed, and B is what you see";
+
 /// Said where B is needed and a copy of A would be no answer.
 const NOTHING_TO_COMPARE: &str =
     "there is no B yet to differ from: the menu \"A against B\" compares with other settings, the truth or a picture";

@@ -86,6 +86,15 @@ impl Comparison {
         }
     }
 
+    /// The key that brings A into sight, where B fills the frame until somebody presses it.
+    pub(in crate::viewer) fn key_to_a(&self) -> Option<&'static str> {
+        match (self.filling(), self.flip) {
+            (Filling::A | Filling::Shared, _) | (_, Some((Some(_), _))) => None,
+            (Filling::B | Filling::Outside, Some((None, _))) => Some("B"),
+            (Filling::B | Filling::Outside, None) => Some("R"),
+        }
+    }
+
     /// B's settings, where it is drawn; `own` are A's.
     pub fn other_settings(&self, own: &Settings) -> Option<RenderSettings> {
         match self.other()? {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::viewer::ab::requests::KEPT;
+use crate::viewer::ab::requests::{KEPT, UNSEEN};
 use crate::viewer::chrome::Dialog;
 use crate::viewer::chrome::{Chrome, ending};
 use crate::viewer::command::parts::{
@@ -57,9 +57,16 @@ impl Viewer {
                 self.drawings().follow_settings();
             }
             Command::Set(change) => {
-                self.chrome.messages.retract(KEPT);
+                let messages = &mut self.chrome.messages;
+                messages.retract(KEPT);
+                let before = self.settings.render;
                 if let Some(remark) = change.apply(&mut self.settings) {
-                    self.chrome.messages.error(remark);
+                    messages.error(remark);
+                }
+                // Else a key seems to do nothing.
+                let key = self.ab.key_to_a().filter(|_| self.settings.render != before);
+                if let Some(key) = key {
+                    messages.done(format!("{UNSEEN}; press {key} to see A"));
                 }
             }
             Command::SetDefaults => self.set_defaults(),

@@ -3,7 +3,7 @@
 use crate::viewer::AbCommand;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::{Against, Other};
-use crate::viewer::ab::requests::{ComparisonContext, KEPT};
+use crate::viewer::ab::requests::{ComparisonContext, KEPT, UNSEEN};
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::export::saver::Saver;
 use crate::viewer::frames::state::Frames;
@@ -24,6 +24,7 @@ pub(in crate::viewer) struct Comparing<'a> {
 impl Comparing<'_> {
     pub(in crate::viewer) fn apply(&mut self, command: AbCommand) {
         self.messages.retract(KEPT);
+        self.messages.retract(UNSEEN);
         let context = &mut ComparisonContext {
             settings: self.settings,
             messages: self.messages,

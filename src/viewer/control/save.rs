@@ -136,13 +136,13 @@ impl Saving<'_> {
         self.sheet.previews.want(question, |_| None);
     }
 
-    /// Saves the sheets that wait for their scene.
+    /// Saves the sheets that wait for their scene; whether there are any.
     ///
     /// # Errors
     /// One line for the user when there is nothing to save.
-    pub(in crate::viewer) fn save_sheets(&mut self) -> Result<(), &'static str> {
+    pub(in crate::viewer) fn save_sheets(&mut self) -> Result<bool, &'static str> {
         if self.sheet.waiting == 0 || self.recipes.both.scene_list.is_reading() {
-            return Ok(());
+            return Ok(false);
         }
         let jobs = std::mem::take(&mut self.sheet.waiting);
         let job = self.sheet_question().zip(self.recipes.picture_spec());
@@ -152,6 +152,6 @@ impl Saving<'_> {
         for _ in 0..jobs {
             self.export.saver.push_sheet(SheetJob::new(&question, spec.clone()));
         }
-        Ok(())
+        Ok(true)
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::raster::Framebuffer;
 use crate::viewer::ab::requests::ComparisonContext;
 use crate::viewer::control::save::Screenshots;
-use crate::viewer::export::saver::{Shot, Work};
+use crate::viewer::export::saver::{SAVING_SHEET, Shot, Work};
 use crate::viewer::state::{Finished, Viewer};
 
 impl Viewer {
@@ -136,8 +136,10 @@ impl Viewer {
         }
         let mut saving = self.saving();
         saving.want_sheet();
-        if let Err(problem) = saving.save_sheets() {
-            self.chrome.messages.error(problem.to_owned());
+        match saving.save_sheets() {
+            Ok(true) => self.chrome.messages.done(SAVING_SHEET.to_owned()),
+            Ok(false) => {}
+            Err(problem) => self.chrome.messages.error(problem.to_owned()),
         }
     }
 

@@ -217,6 +217,7 @@ fn without_scene(record: &Record) -> Option<&'static str> {
     match record.arguments.first().map(String::as_str) {
         Some("diff") => Some("the difference of two pictures"),
         Some("lesson") => Some("a slide of a lesson"),
+        Some("sweep") => Some("the chart of a sweep"),
         _ => None,
     }
 }

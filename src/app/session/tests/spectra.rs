@@ -176,7 +176,7 @@ fn parts(session: &mut Session, whole: &str) -> [Option<bool>; 2] {
 fn parts_of_a_spectrum_are_offered_where_there_are_some() {
     let mut session = session(floor(), [1280, 800]);
     open(&mut session);
-    let (middle, whole) = ("Part: frame's middle", "Part: free picture");
+    let (middle, whole) = ("Part: free middle", "Part: free picture");
     assert_eq!(parts(&mut session, middle), [Some(true), Some(false)], "no pin");
     session.command(Command::Inspector(InspectorCommand::Pin([500, 500])));
     assert_eq!(parts(&mut session, middle), [Some(true); 2], "a pin");

@@ -7,8 +7,8 @@ use rasterscope::compare::{DifferenceStyle, Gain, Measure, Pair};
 use rasterscope::raster::Framebuffer;
 use rasterscope::texture::PixelSampling;
 use rasterscope::viewer::{
-    AbCommand, Arrangement, Command, Effect, ExportCommand, InspectorCommand, PixelRect, PixelZoom, PointerButton,
-    PointerCommand, SceneCommand, Toggle, ViewCommand, WindowCommand,
+    AbCommand, Against, Arrangement, Command, Effect, ExportCommand, InspectorCommand, PixelRect, PixelZoom,
+    PointerButton, PointerCommand, SceneCommand, Toggle, ViewCommand, WindowCommand,
 };
 
 use super::{WINDOW, frames, sixteen_against_one};
@@ -387,6 +387,31 @@ fn comparison_flips_by_hand() {
     assert_eq!(session.viewer.due(), None, "a hand stops the time");
     session.run(Command::Window(WindowCommand::Escape));
     assert!(session.viewer.window().picture() == a, "A alone");
+}
+
+#[test]
+fn settings_that_change_behind_b_are_told() {
+    let told = |session: &Session| {
+        let messages = session.viewer.chrome().messages();
+        let found = messages.iter().find(|message| message.text.starts_with("A changed"));
+        found.map(|message| message.text.clone())
+    };
+    let mut session = sixteen_against_one(WINDOW);
+    session.keys(&["="]);
+    assert_eq!(told(&session), None, "A is seen");
+    session.keys(&["b", "="]);
+    let by_flip = told(&session).expect("a key that seems to do nothing");
+    assert!(by_flip.ends_with("; press B to see A"), "{by_flip}");
+    session.keys(&["b"]);
+    assert_eq!(told(&session), None, "it is seen now");
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Alone)));
+    session.keys(&["r"]);
+    session.run(Command::Window(WindowCommand::NextTheme));
+    assert_eq!(told(&session), None, "the theme is no picture's");
+    session.keys(&["="]);
+    let swapped = told(&session).expect("behind the truth");
+    assert!(swapped.ends_with("; press R to see A"), "{swapped}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::failure::{Failure, print, print_json};
 use super::options::pattern::PatternOptions;
-use crate::raster::{PatternStatistics, SamplePattern, SampleRate, Seed};
+use crate::raster::{PatternStatistics, PowerSpectrum, SamplePattern, SampleRate, Seed};
 use crate::viewer::{patterns, picture};
 
 /// Samples per pixel where nothing is said.
@@ -26,6 +26,8 @@ struct Report {
     /// random points have 1.
     low_power: f64,
     spectrum: Spectrum,
+    /// That of 8 x 8 pixels together, in eighths of cycles per pixel.
+    together: Spectrum,
     /// Right and down from the pixel's corner, in pixels.
     points: Vec<[f64; 2]>,
 }
@@ -36,6 +38,15 @@ struct Spectrum {
     /// The last frequency of the list, in cycles per pixel; the first is zero.
     reach: usize,
     power: Vec<f64>,
+}
+
+impl Spectrum {
+    fn of(spectrum: &PowerSpectrum) -> Self {
+        Self {
+            reach: spectrum.reach(),
+            power: spectrum.radial(),
+        }
+    }
 }
 
 /// Prints what was measured of each pattern.
@@ -91,10 +102,8 @@ fn report(pattern: SamplePattern, rate: SampleRate, options: &PatternOptions) ->
         columns,
         rows,
         low_power: statistics.spectrum.low_power(),
-        spectrum: Spectrum {
-            reach: statistics.spectrum.reach(),
-            power: statistics.spectrum.radial(),
-        },
+        spectrum: Spectrum::of(&statistics.spectrum),
+        together: Spectrum::of(&statistics.together),
         points: statistics.points,
     }
 }

@@ -10,13 +10,13 @@
 //!   |     o     o | -  |             |      power of each frequency, zero in the middle
 //!   '-------------' |  '-------------'
 //!    | |  | | | | |    ----___/\_--__---    and its mean by distance from there
-//!    Discrepancy 0.12
+//!    Discrepancy 0.12  1 pixel   8 x 8      of a pixel's points, or of those of neighbours together
 //! ```
 
 use egui::{Align, Color32, ColorImage, Context, Layout, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke};
 use egui::{StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
-use super::controls::row;
+use super::controls::{choice, row};
 use super::modal::{beside, modal};
 use super::{look, sampling};
 use crate::inspect::counted;
@@ -38,6 +38,10 @@ const MOST: f64 = 2.0;
 /// What the window keeps free around the dialog, in points.
 const AROUND: Vec2 = vec2(48.0, 96.0);
 
+/// What the spectrum is of.
+const OF: &str = "Of the points of single pixels, as a mean; or of 8 \u{d7} 8 neighbours together, in eighths of a cycle per pixel, which \
+                  shows what they have in common and how they are arranged.";
+
 /// Settings that decide where samples lie, by their options.
 const SETTINGS: [&str; 3] = ["sample-rate", "pattern", "seed"];
 
@@ -45,6 +49,8 @@ const SETTINGS: [&str; 3] = ["sample-rate", "pattern", "seed"];
 #[derive(Debug, Default)]
 pub(super) struct PatternDialog {
     shown: Option<ShownPattern>,
+    /// Whether the spectrum is that of several pixels together.
+    together: bool,
 }
 
 /// What a pattern follows from.
@@ -54,7 +60,8 @@ type Key = (SamplePattern, SampleRate, Seed, [i32; 2]);
 struct ShownPattern {
     key: Key,
     statistics: PatternStatistics,
-    spectrum: TextureHandle,
+    /// The spectrum of single pixels, and of several together.
+    spectra: [TextureHandle; 2],
 }
 
 impl std::fmt::Debug for ShownPattern {
@@ -109,12 +116,13 @@ impl PatternDialog {
         let key = (render.pattern, render.sample_rate, render.seed, pixel);
         if self.shown.as_ref().is_none_or(|shown| shown.key != key) {
             let statistics = PatternStatistics::new(render.pattern, render.sample_rate, render.seed, pixel);
-            let image = image(&statistics.spectrum);
+            let texture = |spectrum: &PowerSpectrum| {
+                let context = ui.ctx();
+                context.load_texture("spectrum of the pattern", image(spectrum), TextureOptions::NEAREST)
+            };
             self.shown = Some(ShownPattern {
                 key,
-                spectrum: ui
-                    .ctx()
-                    .load_texture("spectrum of the pattern", image, TextureOptions::NEAREST),
+                spectra: [&statistics.spectrum, &statistics.together].map(texture),
                 statistics,
             });
         }
@@ -134,7 +142,14 @@ impl PatternDialog {
                 points(ui, &shown.statistics, side);
                 numbers(ui, &shown.statistics);
             });
-            ui.vertical(|ui| spectrum(ui, shown, side));
+            ui.vertical(|ui| {
+                ui.set_max_width(side);
+                spectrum(ui, shown, side, self.together);
+                let of = [(false, "1 pixel".to_owned()), (true, "8 \u{d7} 8 pixels".to_owned())];
+                if let Some(together) = choice(ui, "Spectrum of", OF, self.together, &of) {
+                    self.together = together;
+                }
+            });
         });
     }
 }
@@ -193,12 +208,19 @@ fn points(ui: &mut Ui, statistics: &PatternStatistics, side: f32) -> Response {
     response.on_hover_text(tip).accessible_name(name)
 }
 
-/// The power of each frequency, and its mean by distance from zero.
-fn spectrum(ui: &mut Ui, shown: &ShownPattern, side: f32) {
-    let spectrum = &shown.statistics.spectrum;
+/// The power of each frequency, and its mean by distance from zero; of single pixels, or of several together.
+fn spectrum(ui: &mut Ui, shown: &ShownPattern, side: f32, together: bool) {
+    let (spectrum, low) = if together {
+        let low = "with one sample per pixel, low on the left means that neighbours are arranged: their grain is fine";
+        (&shown.statistics.together, low)
+    } else {
+        let low = "low on the left means little noise that the eye sees";
+        (&shown.statistics.spectrum, low)
+    };
+    let picture = &shown.spectra[usize::from(together)];
     let (response, painter) = ui.allocate_painter(vec2(side, side), Sense::hover());
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    painter.image(shown.spectrum.id(), response.rect, whole, Color32::WHITE);
+    painter.image(picture.id(), response.rect, whole, Color32::WHITE);
     let tip = format!(
         "How strong each frequency is in the points, up to {} cycles per pixel; zero is in the middle. Grey is what random points \
          have; bright spots turn what is as fine into another pattern, dark ones keep it out.",
@@ -219,8 +241,7 @@ fn spectrum(ui: &mut Ui, shown: &ShownPattern, side: f32) {
     let curve = curve.map(|(ring, power)| pos2(rect.left() + rect.width() * f32::from(ring) / last, height(*power)));
     painter.line(curve.collect(), Stroke::new(1.5, ui.visuals().strong_text_color()));
     let tip = format!(
-        "The mean by distance from zero, up to {} cycles per pixel. The dashed line is what random points have; low on the left means \
-         little noise that the eye sees.",
+        "The mean by distance from zero, up to {} cycles per pixel. The dashed line is what random points have; {low}.",
         spectrum.reach()
     );
     response.on_hover_text(tip).accessible_name("Mean power by frequency");

@@ -12,6 +12,9 @@
 //!     - its area|, the most    also of the pixels around
 //! ```
 //!
+//! The spectrum of single pixels does not tell how points of neighbours go together, which is what blue noise arranges where a pixel has
+//! one sample; that of several pixels together does.
+//!
 //! Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods" (1992), chapter 2; Lagae and Dutré, "A Comparison of
 //! Methods for Generating Poisson Disk Distributions" (2008).
 
@@ -26,6 +29,12 @@ type Point = [f64; 2];
 
 /// Points of which a spectrum is the mean, about: so many make it smooth, and more take longer than a hand waits.
 const POINTS: u32 = 1024;
+/// Columns, and rows, of pixels whose points are looked at together.
+const BLOCK: u16 = 8;
+/// Points of which the spectrum of such blocks is the mean, about: fewer frequencies are looked at.
+const POINTS_OF_BLOCKS: u32 = 16 * POINTS;
+/// The highest of these frequencies along each axis, in cycles per pixel.
+const REACH_OF_BLOCKS: usize = 2;
 
 /// What there is to measure of the points of one pixel, and of a pattern as a whole.
 #[derive(Clone, Debug)]
@@ -42,6 +51,8 @@ pub struct PatternStatistics {
     pub projections: [usize; 2],
     /// How strong each frequency is in them.
     pub spectrum: PowerSpectrum,
+    /// How strong each frequency is in the points of 8 x 8 pixels together.
+    pub together: PowerSpectrum,
 }
 
 impl PatternStatistics {
@@ -67,6 +78,7 @@ impl PatternStatistics {
             },
             projections: [different(0), different(1)],
             spectrum: pattern.spectrum(rate, seed),
+            together: pattern.spectrum_of_blocks(rate, seed),
             places,
             points,
         }
@@ -93,10 +105,36 @@ impl SamplePattern {
         } else {
             1
         };
-        let mut spectrum = PowerSpectrum::empty(rate);
+        let mut spectrum = PowerSpectrum::of_pixels(rate);
         // A strip as wide as eight pixels: what neighbours have in common belongs to a pattern.
         for pixel in (0..).take(pixels.max(1) as usize) {
             spectrum.add(&self.points(rate, seed, [pixel % 8, pixel / 8]));
+        }
+        spectrum
+    }
+
+    /// The power spectrum of the points of 8 x 8 pixels together: the mean of many such blocks where each pixel has points of its own.
+    fn spectrum_of_blocks(self, rate: SampleRate, seed: Seed) -> PowerSpectrum {
+        let of_block = u32::from(BLOCK * BLOCK) * rate.samples();
+        let blocks = if self.differs_by_pixel() {
+            (POINTS_OF_BLOCKS / of_block).max(1)
+        } else {
+            1
+        };
+        let mut spectrum = PowerSpectrum::of_blocks();
+        // Four blocks beside each other, and as many below as it takes.
+        for block in (0..).take(blocks as usize) {
+            let [left, top] = [block % 4, block / 4].map(|at: i32| at * i32::from(BLOCK));
+            let mut points = Vec::with_capacity(of_block as usize);
+            for [right, down] in (0..BLOCK).flat_map(|down| (0..BLOCK).map(move |right| [right, down])) {
+                let of_pixel = self.points(rate, seed, [left + i32::from(right), top + i32::from(down)]);
+                points.extend(
+                    of_pixel
+                        .into_iter()
+                        .map(|[x, y]| [x + f64::from(right), y + f64::from(down)]),
+                );
+            }
+            spectrum.add(&points);
         }
         spectrum
     }
@@ -158,40 +196,58 @@ fn least_distance(points: &[Point]) -> f64 {
     distances.fold(1.0, f64::min)
 }
 
-/// How strong each frequency is in points: whole numbers of cycles per pixel, between which a pixel's own square would show.
+/// How strong each frequency is in points: of single pixels whole numbers of cycles per pixel, between which a pixel's own square would
+/// show; of 8 x 8 pixels eighths of these.
 #[derive(Clone, Debug)]
 pub struct PowerSpectrum {
     /// The highest frequency along each axis, in cycles per pixel.
     reach: usize,
+    /// Frequencies in a cycle per pixel.
+    parts: usize,
     /// Row by row, from the highest frequency up to zero; those further down are the same upside down and mirrored, because points
     /// are real.
     power: Vec<f64>,
-    /// Pixels that were added.
-    pixels: u32,
+    /// Pixels, or blocks of these, that were added.
+    added: u32,
 }
 
 impl PowerSpectrum {
     /// Of no pixels: for as many points as `rate` says it reaches four times as far as their mean frequency.
-    fn empty(rate: SampleRate) -> Self {
+    fn of_pixels(rate: SampleRate) -> Self {
         let mean = (1..rate.samples())
             .find(|side| side * side >= rate.samples())
             .unwrap_or(1);
-        let reach = 4 * mean as usize;
+        Self::empty(4 * mean as usize, 1)
+    }
+
+    /// Of no blocks.
+    fn of_blocks() -> Self {
+        Self::empty(REACH_OF_BLOCKS, BLOCK.into())
+    }
+
+    fn empty(reach: usize, parts: usize) -> Self {
+        let steps = reach * parts;
         Self {
             reach,
-            power: vec![0.0; (2 * reach + 1) * (reach + 1)],
-            pixels: 0,
+            parts,
+            power: vec![0.0; (2 * steps + 1) * (steps + 1)],
+            added: 0,
         }
     }
 
-    /// Adds the points of a pixel.
+    /// Frequencies from zero to the highest.
+    fn steps(&self) -> usize {
+        self.reach * self.parts
+    }
+
+    /// Adds the points of a pixel, or of a block, in pixels.
     fn add(&mut self, points: &[Point]) {
         let count = points.len() as f64;
         let side = self.side();
         // One wave's phases along an axis, for each point.
         let waves = |axis: usize| -> Vec<Vec<[f64; 2]>> {
             let of_frequency = |index: usize| {
-                let frequency = index as f64 - self.reach as f64;
+                let frequency = (index as f64 - self.steps() as f64) / self.parts as f64;
                 let phase = |point: &Point| {
                     let (sin, cos) = (TAU * frequency * point[axis]).sin_cos();
                     [cos, sin]
@@ -211,7 +267,7 @@ impl PowerSpectrum {
                 *power += (real * real + imaginary * imaginary) / count;
             }
         }
-        self.pixels += 1;
+        self.added += 1;
     }
 
     /// The highest frequency along each axis, in cycles per pixel.
@@ -221,36 +277,38 @@ impl PowerSpectrum {
 
     /// Columns, and rows: one for each frequency from the highest below zero to the highest above.
     pub fn side(&self) -> usize {
-        2 * self.reach + 1
+        2 * self.steps() + 1
     }
 
     /// The mean power of a column and row, counted from the upper left; frequency zero is that of the middle.
     pub fn at(&self, [column, row]: [usize; 2]) -> f64 {
         let last = self.side() - 1;
-        let [column, row] = if row > self.reach {
+        let [column, row] = if row > self.steps() {
             [last - column, last - row]
         } else {
             [column, row]
         };
-        self.power[row * self.side() + column] / f64::from(self.pixels.max(1))
+        self.power[row * self.side() + column] / f64::from(self.added.max(1))
     }
 
-    /// The mean of [`Self::radial`] up to half of the points' mean frequency, but for zero: the noise that eyes see.
+    /// The mean of [`Self::radial`] up to half of the mean frequency of a pixel's points, but for zero: the noise that eyes see. Of single
+    /// pixels.
     pub fn low_power(&self) -> f64 {
         // The mean frequency is a quarter of the reach.
         let low = (self.reach / 8).max(1);
         self.radial()[1..=low].iter().sum::<f64>() / low as f64
     }
 
-    /// The mean power around frequency zero by distance, from zero on in cycles per pixel.
+    /// The mean power around frequency zero by distance, from zero on in cycles per pixel, or in eighths of these.
     pub fn radial(&self) -> Vec<f64> {
-        let mut rings = vec![(0.0, 0_u32); self.reach + 1];
+        let steps = self.steps();
+        let mut rings = vec![(0.0, 0_u32); steps + 1];
         for row in 0..self.side() {
             for column in 0..self.side() {
-                let [right, down] = [column.abs_diff(self.reach), row.abs_diff(self.reach)];
+                let [right, down] = [column.abs_diff(steps), row.abs_diff(steps)];
                 let distance = (right as f64).hypot(down as f64);
                 // The ring that is nearest, in whole numbers.
-                let ring = (0..=self.reach).find(|ring| distance < *ring as f64 + 0.5);
+                let ring = (0..=steps).find(|ring| distance < *ring as f64 + 0.5);
                 if let Some((sum, count)) = ring.and_then(|ring| rings.get_mut(ring)) {
                     *sum += self.at([column, row]);
                     *count += 1;
@@ -366,7 +424,7 @@ mod tests {
     #[test]
     fn spectrum_is_the_sum_of_all_waves() {
         let points = [[0.1, 0.7], [0.35, 0.2], [0.8, 0.4]];
-        let mut spectrum = PowerSpectrum::empty(rate(3));
+        let mut spectrum = PowerSpectrum::of_pixels(rate(3));
         spectrum.add(&points);
         for place in [[3, 1], [8, 8], [10, 8], [2, 15], [16, 9], [16, 0]] {
             let [x, y] = place.map(|at: usize| at as f64 - 8.0);
@@ -392,5 +450,44 @@ mod tests {
         ] {
             assert!(low(even) < 0.6 * random, "{even:?}: {}, random {random}", low(even));
         }
+    }
+
+    #[test]
+    fn spectrum_of_blocks_is_the_sum_of_all_waves_of_their_pixels() {
+        let (pattern, rate, seed) = (SamplePattern::Jittered, rate(256), Seed::default());
+        let spectrum = pattern.spectrum_of_blocks(rate, seed);
+        // 16 * 1024 points are one block of 8 x 8 pixels.
+        for place in [[0, 0], [16, 12], [20, 16], [31, 2], [3, 30]] {
+            let [x, y] = place.map(|at: usize| (at as f64 - 16.0) / 8.0);
+            let (mut real, mut imaginary) = (0.0, 0.0);
+            for pixel in (0..8).flat_map(|down| (0..8).map(move |right| [right, down])) {
+                for point in pattern.points(rate, seed, pixel) {
+                    let [across, down] = [0, 1].map(|axis| f64::from(pixel[axis]) + point[axis]);
+                    let (sin, cos) = (TAU * (x * across + y * down)).sin_cos();
+                    real += cos;
+                    imaginary += sin;
+                }
+            }
+            let expected = (real * real + imaginary * imaginary) / 16384.0;
+            let found = spectrum.at(place);
+            assert!(
+                (found - expected).abs() < 1e-6,
+                "{place:?}: {found}, by the sum {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn blue_noise_arranges_what_neighbours_have_at_one_sample() {
+        // Up to a quarter of a cycle per pixel, and from there to half of one.
+        let bands = |pattern: SamplePattern| {
+            let radial = pattern.spectrum_of_blocks(rate(1), Seed::default()).radial();
+            [radial[1] + radial[2], radial[3] + radial[4]]
+        };
+        let ([low, high], [random_low, random_high]) = (bands(SamplePattern::BlueNoise), bands(SamplePattern::Random));
+        assert!(low < 0.5 * random_low, "{low}, random {random_low}");
+        assert!(high > 1.2 * random_high, "{high}, random {random_high}");
+        let [low, high] = bands(SamplePattern::Grid);
+        assert!(low + high < 1e-6, "a grid repeats itself");
     }
 }

@@ -84,6 +84,9 @@ fn cli_pattern_prints_the_points_that_pixels_have() {
         Some(4.0),
         "all in phase: {json}"
     );
+    let together = report["together"]["power"].as_array().unwrap();
+    assert_eq!(together.len(), 17, "up to two cycles in eighths: {json}");
+    assert_eq!(together[0].as_f64(), Some(256.0), "64 pixels, all in phase: {json}");
     let (_, other, _) = printed(&["jittered", "--sample-rate=4", "--seed=3", "--pixel=8,9", "--json"]);
     assert_ne!(json, other, "another pixel has others");
 }

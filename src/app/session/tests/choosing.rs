@@ -317,6 +317,10 @@ fn pattern_by_itself_follows_the_keys_and_closes() {
             "the next pattern, in {window:?}"
         );
         assert!(has(&mut session, "Power spectrum"), "it has a name in {window:?}");
+        assert!(
+            has(&mut session, "Spectrum of: 8 \u{d7} 8 pixels"),
+            "of neighbours, too, in {window:?}"
+        );
         key(&mut session, "Escape");
         session.settle();
         assert_eq!(session.viewer().chrome().dialog(), None, "closed in {window:?}");

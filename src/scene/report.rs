@@ -48,10 +48,12 @@ pub enum SkippedKind {
 /// One thing that was read differently from what the document says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The element concerned.
+    /// The element concerned; the first of several.
     pub location: SourceLocation,
     /// What happened and what was done instead, in one line.
     pub message: String,
+    /// How often.
+    pub count: u32,
 }
 
 impl Report {
@@ -102,10 +104,16 @@ impl Report {
         }
     }
 
-    /// Adds a warning.
+    /// Adds a warning; one that says the same is counted.
     pub(super) fn warn(&mut self, location: SourceLocation, message: String) {
-        if self.warnings.len() < MAX_ENTRIES {
-            self.warnings.push(Warning { location, message });
+        if let Some(known) = self.warnings.iter_mut().find(|known| known.message == message) {
+            known.count = known.count.saturating_add(1);
+        } else if self.warnings.len() < MAX_ENTRIES {
+            self.warnings.push(Warning {
+                location,
+                message,
+                count: 1,
+            });
         } else {
             self.unlisted = self.unlisted.saturating_add(1);
         }
@@ -135,7 +143,11 @@ impl fmt::Display for Skipped {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.location, self.message)
+        write!(f, "{}: {}", self.location, self.message)?;
+        if self.count > 1 {
+            write!(f, " ({} times in all)", self.count)?;
+        }
+        Ok(())
     }
 }
 
@@ -168,10 +180,16 @@ mod tests {
         report.skip(SkippedKind::Element, "circle", FIRST);
         report.skip(SkippedKind::Element, "circle", SourceLocation { line: 9, column: 1 });
         report.skip(SkippedKind::Attribute, "mask", FIRST);
+        report.warn(FIRST, "fill is read as black".into());
+        report.warn(SourceLocation { line: 9, column: 1 }, "fill is read as black".into());
         let lines: Vec<String> = report.lines().collect();
         assert_eq!(
             lines,
-            ["3:7: <circle> is not drawn (2 times in all)", "3:7: mask has no effect"],
+            [
+                "3:7: <circle> is not drawn (2 times in all)",
+                "3:7: mask has no effect",
+                "3:7: fill is read as black (2 times in all)"
+            ],
             "one line each"
         );
     }
@@ -181,7 +199,7 @@ mod tests {
         let mut report = Report::default();
         for i in 0..10_000 {
             report.skip(SkippedKind::Element, &format!("e{i}"), FIRST);
-            report.warn(FIRST, "w".into());
+            report.warn(FIRST, format!("w{i}"));
         }
         assert_eq!(
             report.lines().count(),
@@ -191,7 +209,7 @@ mod tests {
         assert_eq!(report.unlisted, 19_800, "the rest is counted");
         assert_eq!(report.count(), 20_000, "all of them");
         let named: Vec<String> = report.lines_in("a.svg").collect();
-        assert_eq!(named[100], "a.svg:3:7: w", "with its place");
+        assert_eq!(named[100], "a.svg:3:7: w0", "with its place");
         assert_eq!(named[200], "a.svg: and 19800 more", "without one");
     }
 

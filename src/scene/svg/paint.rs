@@ -35,16 +35,30 @@ impl<'doc> Painter<'_, 'doc> {
         }
         // The root is an isolated group, too (Compositing and Blending 1, section 2.2): what lies below it is the paper, with which
         // nothing is blended by its own mode.
+        self.on_layer(place, BlendMode::Normal, |painter, opaque| {
+            painter.group(tree.root(), opaque)?;
+            Ok(true)
+        })
+    }
+
+    /// Paints something on a layer of its own, which then has the opacity of `place`. `paint` gets the same place without it, and says
+    /// whether any of what it painted is left.
+    fn on_layer(
+        &mut self,
+        place: Place,
+        blend: BlendMode,
+        paint: impl FnOnce(&mut Self, Place) -> Result<bool, Fault>,
+    ) -> Result<(), Fault> {
         let mark = self.builder.mark();
         self.builder.begin_layer(place.shape)?;
-        self.group(tree.root(), place)?;
-        if self.builder.is_empty_layer() {
+        let is_left = paint(self, Place { opacity: 1.0, ..place })?;
+        if !is_left || self.builder.is_empty_layer() {
             self.builder.take_back(mark);
             return Ok(());
         }
         let composite = Composite::Over {
-            opacity: 1.0,
-            blend: BlendMode::Normal,
+            opacity: place.opacity,
+            blend,
         };
         self.builder.end_layer(place.shape, composite)
     }
@@ -72,20 +86,10 @@ impl<'doc> Painter<'_, 'doc> {
         if is_plain(group, clip) && (place.opacity >= 1.0 || is_single(group)) {
             return self.children(group, place);
         }
-        let mark = self.builder.mark();
-        self.builder.begin_layer(place.shape)?;
-        let opaque = Place { opacity: 1.0, ..place };
-        self.children(group, opaque)?;
-        let is_seen = !self.builder.is_empty_layer() && self.cut(clip, group, opaque)?;
-        if !is_seen {
-            self.builder.take_back(mark);
-            return Ok(());
-        }
-        let composite = Composite::Over {
-            opacity: place.opacity,
-            blend: blend_mode(group.blend_mode()),
-        };
-        self.builder.end_layer(place.shape, composite)
+        self.on_layer(place, blend_mode(group.blend_mode()), |painter, opaque| {
+            painter.children(group, opaque)?;
+            Ok(!painter.builder.is_empty_layer() && painter.cut(clip, group, opaque)?)
+        })
     }
 
     /// Whether a group's clip path takes nothing away, so that the group needs no layer for it.
@@ -371,19 +375,14 @@ impl<'doc> Painter<'_, 'doc> {
 
     /// A document in an image, which ends where its canvas does.
     fn nested(&mut self, tree: &usvg::Tree, place: Place) -> Result<(), Fault> {
-        let mark = self.builder.mark();
-        self.builder.begin_layer(place.shape)?;
-        self.group(tree.root(), Place { opacity: 1.0, ..place })?;
-        if self.builder.is_empty_layer() {
-            self.builder.take_back(mark);
-            return Ok(());
-        }
-        clip::to_box(self, [0.0, 0.0, tree.size().width(), tree.size().height()], place)?;
-        let composite = Composite::Over {
-            opacity: place.opacity,
-            blend: BlendMode::Normal,
-        };
-        self.builder.end_layer(place.shape, composite)
+        self.on_layer(place, BlendMode::Normal, |painter, opaque| {
+            painter.group(tree.root(), opaque)?;
+            if !painter.builder.is_empty_layer() {
+                let [width, height] = [tree.size().width(), tree.size().height()];
+                clip::to_box(painter, [0.0, 0.0, width, height], opaque)?;
+            }
+            Ok(true)
+        })
     }
 }
 
